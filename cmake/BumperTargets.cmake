@@ -1,0 +1,50 @@
+# The two ways a target comes to be: bumper_library() for a part of a room that applications link,
+# bumper_program() for a test, benchmark or example.
+
+include_guard()
+
+# The same flags for every target of ours; none of them leaks to applications.
+function(bumper_target_options target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(
+    ${target}
+    PRIVATE
+      -Wall
+      -Wextra
+      -Wpedantic
+      -Wshadow
+      -Wconversion
+      -Wold-style-cast
+      -Wnon-virtual-dtor
+      -Wdouble-promotion
+      # Same bits at every optimisation level: no fused multiply-add behind our back.
+      -ffp-contract=off
+      $<$<BOOL:${BUMPER_WARNINGS_AS_ERRORS}>:-Werror>)
+endfunction()
+
+# bumper_library(<component> ROOM <room> SOURCES <file>... [PUBLIC <target>...] [PRIVATE <target>...])
+function(bumper_library component)
+  cmake_parse_arguments(ARG "" "ROOM" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  set(target bumper_${component})
+  add_library(${target} ${ARG_SOURCES})
+  add_library(bumper::${component} ALIAS ${target})
+  bumper_target_options(${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${component} BUMPER_COMPONENT ${component})
+  target_include_directories(
+    ${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+                     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  install(TARGETS ${target} EXPORT bumper_${component}_targets)
+  install(EXPORT bumper_${component}_targets NAMESPACE bumper::
+          DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/bumper FILE bumper_${component}_targets.cmake)
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endfunction()
+
+# bumper_program(<name> SOURCES <file>... LINK <target>...)
+function(bumper_program name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  bumper_target_options(${name})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK})
+endfunction()

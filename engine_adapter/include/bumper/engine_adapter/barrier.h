@@ -1,0 +1,31 @@
+#pragma once
+
+#include <ode/ode.h>
+
+#include <optional>
+#include <string>
+
+#include "bumper/response/response_settings.h"
+#include "bumper/scenes/walls.h"
+
+namespace bumper {
+
+/// Names a barrier of one responder.
+struct BarrierId {
+  int value = -1;
+  bool operator==(const BarrierId&) const = default;
+};
+
+struct BarrierOptions {
+  /// The space in which a barrier made from a scene puts its new geom; may be null, then the
+  /// application collides it itself. Not used for a mesh that the application already has.
+  dSpaceID space = nullptr;
+  /// What events call the barrier; empty: the scene's name, or "barrier <number>".
+  std::string name{};
+  /// Which triangles are walls.
+  WallSelection walls{};
+  /// How these walls answer; empty: as the responder's options say.
+  std::optional<ResponseSettings> response{};
+};
+
+}  // namespace bumper

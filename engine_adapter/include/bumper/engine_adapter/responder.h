@@ -1,0 +1,117 @@
+#pragma once
+
+#include <ode/ode.h>
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "bumper/engine_adapter/barrier.h"
+#include "bumper/engine_adapter/vehicle.h"
+#include "bumper/response/impact_event.h"
+#include "bumper/scenes/scene.h"
+
+namespace bumper {
+
+/// Where an impact's point and normal come from.
+enum class ContactSource {
+  exact_cut,    ///< ODE's trimesh collider lists the triangles, Bumper cuts the outline with them
+  ode_contacts  ///< the mean of dCollide's contacts, as any ODE program has them; for comparison
+};
+
+struct ResponderOptions {
+  /// How walls answer, unless their barrier says otherwise.
+  ResponseSettings response{};
+  ContactSource contactSource = ContactSource::exact_cut;
+};
+
+/// What a step could not do as usual; a set of bits.
+namespace step_issue {
+inline constexpr unsigned none = 0;
+inline constexpr unsigned invalid_step = 1;  ///< step size not finite or negative: nothing was done
+inline constexpr unsigned not_finite = 2;    ///< a vehicle's state is not finite: it was left alone
+inline constexpr unsigned tilted = 4;  ///< a vehicle leans beyond its limit: its contacts are ODE's
+inline constexpr unsigned unsettled = 8;  ///< a vehicle still approached a wall after the last
+                                          ///< impulse that one step allows
+}  // namespace step_issue
+
+/// Replaces ODE's contact joints between vehicles and barriers by impulses, delivered as constant
+/// forces (the paper's scheme).
+///
+/// The responder borrows the world. It owns exactly the contacts that it answers: those of a
+/// vehicle's bodies with walls at the heights of its band, as long as the vehicle stands upright.
+/// All others stay ODE's. Each step: collide, add your own forces, step(h), step the world by the
+/// same h.
+///
+/// Vehicle frame: x forward, y left, z up in the chassis body's axes, origin at the mass centre of
+/// the chassis and its linked bodies. World: right-handed, z up, metres, double precision.
+///
+/// Barriers stand still. Nothing here touches data, callbacks or collision bits of the
+/// application's geoms and bodies. A body or geom must be removed here before it is destroyed.
+/// Set-up calls throw Error and then change nothing; step(), claims() and keepUnclaimed() do not
+/// throw. One responder belongs to one thread at a time; see trimeshLock() for several.
+class Responder {
+ public:
+  /// Throws Error if the world is null, ODE is not in double precision, or a setting is invalid.
+  explicit Responder(dWorldID world, const ResponderOptions& options = {});
+  ~Responder();
+  Responder(const Responder&) = delete;
+  Responder& operator=(const Responder&) = delete;
+  Responder(Responder&&) noexcept;
+  Responder& operator=(Responder&&) noexcept;
+
+  /// The walls of a scene, as a new trimesh geom in `options.space`. Other bodies collide with that
+  /// geom as with any other. The scene is copied. Throws Error if it is invalid or has no wall.
+  BarrierId addBarrier(const Scene& scene, const BarrierOptions& options = {});
+
+  /// The walls of a trimesh geom that the application already has, road and walls in one. It must
+  /// stand still from now on. ODE keeps its vertices in single precision, and so they are read.
+  /// Throws Error if it is no trimesh, has a body, is registered already or has no wall.
+  BarrierId addBarrier(dGeomID trimesh, const BarrierOptions& options = {});
+
+  /// The geom that a barrier's contacts come with: the new one, or the application's own.
+  [[nodiscard]] dGeomID geom(BarrierId barrier) const;
+
+  /// What was kept of a barrier's mesh, and what was dropped.
+  [[nodiscard]] const WallReport& report(BarrierId barrier) const;
+
+  /// A vehicle: its chassis with linked bodies. Throws Error if a parameter is invalid, a body is
+  /// null, registered already or of another world, or if the bodies' mass or yaw inertia differs
+  /// from the parameters by more than 1 % or 5 %: the impulse would not be the law's. The bodies'
+  /// own values are what is used from then on.
+  VehicleId addVehicle(dBodyID chassis, const VehicleParameters& parameters,
+                       const VehicleOptions& options = {});
+
+  /// Call before the geom, or the bodies, are destroyed. Unknown ids are an Error.
+  void removeBarrier(BarrierId barrier);
+  void removeVehicle(VehicleId vehicle);
+
+  /// Whether every contact of this pair is Bumper's, so that the near callback can return at once.
+  /// Either order of the geoms. False is no promise: go on with dCollide and keepUnclaimed().
+  [[nodiscard]] bool claims(dGeomID a, dGeomID b) const;
+
+  /// Takes Bumper's contacts out of what dCollide(a, b, …) gave, keeps the others in their order in
+  /// front, and returns how many they are.
+  int keepUnclaimed(dGeomID a, dGeomID b, dContact* contacts, int count) const;
+
+  /// Finds the impacts of the coming step of `h` seconds and adds their forces to the bodies. The
+  /// events are valid until the next call.
+  std::span<const ImpactEvent> step(double h);
+
+  /// The sum of the steps taken, s.
+  [[nodiscard]] double time() const;
+
+  /// Bits of step_issue for the last step: of all vehicles, or of one.
+  [[nodiscard]] unsigned issues() const;
+  [[nodiscard]] unsigned issues(VehicleId vehicle) const;
+
+  /// What set-up calls noticed that would eat a part of an impulse (damping, speed limits).
+  [[nodiscard]] std::span<const std::string> warnings() const;
+
+  struct Implementation;  ///< in the library's own sources
+
+ private:
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace bumper

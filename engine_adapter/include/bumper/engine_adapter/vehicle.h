@@ -1,0 +1,51 @@
+#pragma once
+
+#include <ode/ode.h>
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "bumper/response/vehicle_parameters.h"
+
+namespace bumper {
+
+/// Names a vehicle of one responder.
+struct VehicleId {
+  int value = -1;
+  bool operator==(const VehicleId&) const = default;
+};
+
+/// The heights above the ground, m, measured along the vehicle's z axis, at which walls hit the
+/// outline. Whatever lies lower (kerbs) or higher (bridges) stays ODE's.
+struct Band {
+  double bottom = 0.0;
+  double top = 0.0;
+};
+
+/// 0.3 m to 0.2 m above the mass centre; for a very low mass centre from half its height.
+Band defaultBand(const VehicleParameters& vehicle);
+
+/// The paper's plate at mass-centre height.
+Band plateBand(const VehicleParameters& vehicle);
+
+struct VehicleOptions {
+  /// What events call the vehicle; empty: "vehicle <number>".
+  std::string name{};
+  /// Bodies that move with the chassis as one: wheels on their joints. They share every impulse as
+  /// parts of one rigid body would. A trailer is a vehicle of its own. Copied by addVehicle.
+  std::span<const dBodyID> linkedBodies{};
+  /// Default: defaultBand() of the parameters.
+  std::optional<Band> band{};
+  /// Beyond this angle between the vehicle's z axis and the vertical, rad, in (0, π/2), Bumper
+  /// leaves the vehicle's contacts to ODE: it is rolling over.
+  double tiltLimit = 0.5235987755982988;  // 30°
+};
+
+/// The parameters of a vehicle whose mass and yaw inertia are those of its ODE bodies, about their
+/// common mass centre. Throws Error on a null body.
+VehicleParameters parametersFromBodies(dBodyID chassis, std::span<const dBodyID> linkedBodies,
+                                       double massCentreToFront, double massCentreToRear,
+                                       double width, double massCentreHeight);
+
+}  // namespace bumper

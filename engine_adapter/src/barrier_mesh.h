@@ -1,0 +1,78 @@
+#pragma once
+
+#include <ode/ode.h>
+
+#include <string>
+#include <vector>
+
+#include "bumper/engine_adapter/barrier.h"
+#include "bumper/scenes/scene.h"
+
+namespace bumper {
+
+/// A registered barrier: its walls in double precision, and their trimesh for ODE's collider.
+class BarrierMesh {
+ public:
+  /// How ODE's collider is asked about the walls.
+  enum class Query { list_triangles, make_contacts };
+
+  /// A new geom for the scene's walls in options.space.
+  BarrierMesh(const Scene& scene, const BarrierOptions& options, std::string name, Query query);
+  /// The walls of the application's geom.
+  BarrierMesh(dGeomID trimesh, const BarrierOptions& options, std::string name, Query query);
+  ~BarrierMesh();
+  BarrierMesh(const BarrierMesh&) = delete;
+  BarrierMesh& operator=(const BarrierMesh&) = delete;
+  BarrierMesh(BarrierMesh&&) = delete;
+  BarrierMesh& operator=(BarrierMesh&&) = delete;
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const std::vector<Wall>& walls() const { return walls_; }
+  [[nodiscard]] const WallReport& report() const { return report_; }
+  /// The geom that the application's contacts come with.
+  [[nodiscard]] dGeomID geom() const { return geom_; }
+  [[nodiscard]] const std::string& materialOf(int wall) const;
+  /// The wall behind a triangle of geom(); -1 for ground.
+  [[nodiscard]] int wallOfTriangle(int triangle) const;
+  [[nodiscard]] bool hasWallsOnly() const { return wallOfTriangle_.empty(); }
+  /// The highest foot and the lowest top of all walls, m.
+  [[nodiscard]] double highestFoot() const { return highestFoot_; }
+  [[nodiscard]] double lowestTop() const { return lowestTop_; }
+
+  /// Whether a sphere reaches the walls' bounding box.
+  [[nodiscard]] bool reaches(const Eigen::Vector3d& centre, double radius) const;
+
+  /// Fills `walls` with the indices of those that ODE's collider finds at the box. The collider
+  /// works in single precision: make the box larger by margin() on every side.
+  void list(dGeomID box, std::vector<int>& walls) const;
+  /// ODE's own contacts of the box with the walls; Query::make_contacts only.
+  int contacts(dGeomID box, dContactGeom* contacts, int capacity) const;
+  [[nodiscard]] double margin() const { return margin_; }
+
+ private:
+  void keepWalls(const Scene& scene, const BarrierOptions& options);
+  void buildMesh(Query query);
+
+  std::string name_;
+  std::vector<Wall> walls_;
+  WallReport report_;
+  std::vector<std::string> materials_;
+  std::vector<int> materialOfWall_;
+  std::vector<int> wallOfTriangle_;  // empty: the geom holds walls only
+  Eigen::Vector3d low_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d high_ = Eigen::Vector3d::Zero();
+  double highestFoot_ = 0.0;
+  double lowestTop_ = 0.0;
+  double margin_ = 0.0;
+
+  // ODE does not copy these arrays. Vertices are stored around the middle of the mesh, where
+  // single precision is finest, and the geoms are placed there.
+  std::vector<double> vertices_;
+  std::vector<dTriIndex> indices_;
+  dTriMeshDataID data_ = nullptr;
+  dGeomID queryGeom_ = nullptr;  // in no space; carries our callbacks
+  dGeomID geom_ = nullptr;
+  bool ownsGeom_ = false;
+};
+
+}  // namespace bumper

@@ -1,0 +1,151 @@
+#include <cmath>
+
+#include "responder_implementation.h"
+
+namespace bumper {
+
+namespace {
+
+// The vehicle in its own frame, with the velocity that it would have at the step's end without
+// walls; the paper takes the velocity as it is.
+PlanarMotion motionOf(const VehicleState& state, Method method, double h) {
+  const double ahead = method == Method::paper ? 0.0 : h;
+  const Eigen::Vector3d velocity = state.velocity + ahead * state.acceleration;
+  PlanarMotion motion;
+  motion.velocity = (state.axes.transpose() * velocity).head<2>();
+  motion.yawRate = state.yawRate + ahead * state.yawAcceleration;
+  return motion;
+}
+
+// What the law works with: the outline as given, mass and inertia as the bodies have them now.
+VehicleParameters withMassOf(VehicleParameters parameters, const VehicleState& state) {
+  parameters.mass = state.mass;
+  parameters.yawInertia = state.yawInertia;
+  return parameters;
+}
+
+void add(PlanarImpulse& sum, const PlanarImpulse& impulse) {
+  sum.linear += impulse.linear;
+  sum.angular += impulse.angular;
+}
+
+}  // namespace
+
+void Responder::Implementation::report(const Vehicle& vehicle, const VehicleState& state,
+                                       const Barrier& barrier, int wall, const Impact& impact,
+                                       const ImpactResponse& response) {
+  if (response.approachSpeed <= barrier.settings.restSpeed) return;
+  ImpactEvent event;
+  event.time = time;
+  event.vehicle = vehicle.name;
+  event.barrier = barrier.mesh.name();
+  event.triangle = barrier.mesh.walls()[static_cast<std::size_t>(wall)].triangle;
+  event.material = barrier.mesh.materialOf(wall);
+  event.contact = state.massCentre + state.toWorld(impact.point);
+  event.normal = state.toWorld(impact.normal);
+  event.arm = impact.arm;
+  event.law = response.law;
+  event.angles = response.angles;
+  event.approachSpeed = response.approachSpeed;
+  event.restitution = response.restitution;
+  event.friction = response.friction;
+  event.impulseNormal = response.contact.impulse.normal;
+  event.impulseTangent = response.contact.impulse.tangent;
+  event.impulseRatio = response.contact.impulseRatio;
+  event.criticalImpulseRatio = response.contact.criticalRatio;
+  event.deltaV = (response.after.velocity - response.before.velocity).norm();
+  event.yawRateBefore = response.before.yawRate;
+  event.yawRateAfter = response.after.yawRate;
+  event.speedBefore = response.before.velocity.norm();
+  event.speedAfter = response.after.velocity.norm();
+  event.velocityAfter = state.toWorld(response.after.velocity);
+  event.energyAsked = response.energyAsked;
+  event.energyRatio = response.energyRatio;
+  event.outcome = response.outcome;
+  event.regime = response.contact.regime;
+  events.push_back(event);
+}
+
+PlanarImpulse Responder::Implementation::impulseOfCuts(Vehicle& vehicle, const VehicleState& state,
+                                                       double h) {
+  segments.clear();
+  firstIds.clear();
+  int nextId = 0;
+  for (const std::unique_ptr<Barrier>& barrier : barriers) {
+    firstIds.push_back(nextId);
+    if (barrier == nullptr) continue;
+    vehicle.query.append(barrier->mesh, state, barrier->settings, nextId, segments);
+    nextId += static_cast<int>(barrier->mesh.walls().size());
+  }
+  if (segments.empty()) return {};
+
+  const StepOutcome outcome = collision.resolve(
+      withMassOf(vehicle.parameters, state), motionOf(state, options.response.method, h), segments);
+  if (!outcome.settled) vehicle.issues |= step_issue::unsettled;
+  for (const StepImpact& each : outcome.impacts) {
+    // The last barrier that starts at or before the wall's number, and is still there.
+    std::size_t owner = firstIds.size() - 1;
+    while (firstIds[owner] > each.impact.wall || barriers[owner] == nullptr) --owner;
+    report(vehicle, state, *barriers[owner], each.impact.wall - firstIds[owner], each.impact,
+           each.response);
+  }
+  return outcome.impulse;
+}
+
+PlanarImpulse Responder::Implementation::impulseOfContacts(Vehicle& vehicle,
+                                                           const VehicleState& state, double h) {
+  PlanarImpulse sum;
+  PlanarMotion motion = motionOf(state, options.response.method, h);
+  for (const std::unique_ptr<Barrier>& barrier : barriers) {
+    if (barrier == nullptr) continue;
+    const std::optional<Impact> impact = vehicle.query.meanOfContacts(barrier->mesh, state);
+    if (!impact || -velocityAt(motion, impact->arm).dot(impact->normal) <= 0.0) continue;
+    const ImpactResponse response =
+        respond(*impact, motion, state.mass, state.yawInertia, barrier->settings);
+    report(vehicle, state, *barrier, impact->wall, *impact, response);
+    add(sum, response.impulse);
+    motion = response.after;
+  }
+  return sum;
+}
+
+void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
+  vehicle.issues = step_issue::none;
+  const VehicleState state = vehicle.bodies.read();
+  if (!state.isFinite()) {
+    vehicle.issues |= step_issue::not_finite;
+    return;
+  }
+  if (!vehicle.isUpright()) {
+    vehicle.issues |= step_issue::tilted;
+    return;
+  }
+  const PlanarImpulse impulse = options.contactSource == ContactSource::exact_cut
+                                    ? impulseOfCuts(vehicle, state, h)
+                                    : impulseOfContacts(vehicle, state, h);
+  if (impulse.linear.isZero(0.0) && impulse.angular == 0.0) return;
+
+  ForcePulse pulse;
+  pulse.add(impulse, 0.0, h);
+  vehicle.bodies.push(state, pulse.take(h));
+}
+
+std::span<const ImpactEvent> Responder::step(double h) {
+  Implementation& self = *implementation_;
+  self.events.clear();
+  self.issues = step_issue::none;
+  if (!std::isfinite(h) || h < 0.0) {
+    self.issues = step_issue::invalid_step;
+    return {};
+  }
+  if (h == 0.0) return {};
+  for (const std::unique_ptr<Vehicle>& vehicle : self.vehicles) {
+    if (vehicle == nullptr) continue;
+    self.stepVehicle(*vehicle, h);
+    self.issues |= vehicle->issues;
+  }
+  self.time += h;
+  return self.events;
+}
+
+}  // namespace bumper

@@ -1,0 +1,109 @@
+#include "vehicle_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bumper/response/error.h"
+#include "ode_vectors.h"
+
+namespace bumper {
+
+namespace {
+
+double massOf(dBodyID body) {
+  dMass mass;
+  dBodyGetMass(body, &mass);
+  return mass.mass;
+}
+
+// Inertia about the body's origin, which ODE requires to be its mass centre, in world axes.
+Eigen::Matrix3d inertiaOf(dBodyID body) {
+  dMass mass;
+  dBodyGetMass(body, &mass);
+  const Eigen::Matrix3d rotation = toMatrix(dBodyGetRotation(body));
+  return rotation * toMatrix(mass.I) * rotation.transpose();
+}
+
+}  // namespace
+
+bool VehicleState::isFinite() const {
+  return massCentre.allFinite() && axes.allFinite() && velocity.allFinite() &&
+         std::isfinite(yawRate) && acceleration.allFinite() && std::isfinite(yawAcceleration);
+}
+
+VehicleState VehicleBodies::read() const {
+  VehicleState state;
+  state.axes = toMatrix(dBodyGetRotation(chassis()));
+  const Eigen::Vector3d up = state.up();
+  state.yawRate = toVector(dBodyGetAngularVel(chassis())).dot(up);
+
+  dVector3 gravity;
+  dWorldGetGravity(dBodyGetWorld(chassis()), gravity);
+  state.massCentre.setZero();
+  state.velocity.setZero();
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  for (dBodyID body : bodies_) {
+    const double mass = massOf(body);
+    state.mass += mass;
+    state.massCentre += mass * toVector(dBodyGetPosition(body));
+    state.velocity += mass * toVector(dBodyGetLinearVel(body));
+    force += toVector(dBodyGetForce(body));
+    if (dBodyGetGravityMode(body) != 0) force += mass * toVector(gravity);
+  }
+  state.massCentre /= state.mass;
+  state.velocity /= state.mass;
+  state.acceleration = force / state.mass;
+
+  double moment = 0.0;
+  for (dBodyID body : bodies_) {
+    const Eigen::Vector3d arm = toVector(dBodyGetPosition(body)) - state.massCentre;
+    state.yawInertia += up.dot(inertiaOf(body) * up) + massOf(body) * up.cross(arm).squaredNorm();
+    moment += up.dot(toVector(dBodyGetTorque(body)) + arm.cross(toVector(dBodyGetForce(body))));
+  }
+  state.yawAcceleration = moment / state.yawInertia;
+  return state;
+}
+
+void VehicleBodies::push(const VehicleState& state, const PlanarForce& force) const {
+  const Eigen::Vector3d acceleration = state.toWorld(force.force) / state.mass;
+  const Eigen::Vector3d turning = force.yawMoment / state.yawInertia * state.up();
+  for (dBodyID body : bodies_) {
+    const Eigen::Vector3d arm = toVector(dBodyGetPosition(body)) - state.massCentre;
+    const Eigen::Vector3d share = massOf(body) * (acceleration + turning.cross(arm));
+    const Eigen::Vector3d torque = inertiaOf(body) * turning;
+    // ODE keeps the force of a sleeping body until it wakes by other means.
+    dBodyEnable(body);
+    dBodyAddForce(body, share.x(), share.y(), share.z());
+    dBodyAddTorque(body, torque.x(), torque.y(), torque.z());
+  }
+}
+
+Band defaultBand(const VehicleParameters& vehicle) {
+  return {.bottom = std::min(0.3, 0.5 * vehicle.massCentreHeight),
+          .top = vehicle.massCentreHeight + 0.2};
+}
+
+Band plateBand(const VehicleParameters& vehicle) {
+  constexpr double halfThickness = 0.01;
+  return {.bottom = vehicle.massCentreHeight - halfThickness,
+          .top = vehicle.massCentreHeight + halfThickness};
+}
+
+VehicleParameters parametersFromBodies(dBodyID chassis, std::span<const dBodyID> linkedBodies,
+                                       double massCentreToFront, double massCentreToRear,
+                                       double width, double massCentreHeight) {
+  std::vector<dBodyID> bodies{chassis};
+  bodies.insert(bodies.end(), linkedBodies.begin(), linkedBodies.end());
+  if (std::find(bodies.begin(), bodies.end(), nullptr) != bodies.end()) {
+    throw Error("parametersFromBodies: a body is null");
+  }
+  const VehicleState state = VehicleBodies(std::move(bodies)).read();
+  return {.mass = state.mass,
+          .yawInertia = state.yawInertia,
+          .massCentreToFront = massCentreToFront,
+          .massCentreToRear = massCentreToRear,
+          .width = width,
+          .massCentreHeight = massCentreHeight};
+}
+
+}  // namespace bumper

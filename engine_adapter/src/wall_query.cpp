@@ -1,0 +1,149 @@
+#include "wall_query.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "ode_vectors.h"
+
+namespace bumper {
+
+namespace {
+
+// A wall whose normal is nearly along the vehicle's z axis has no direction in its yaw plane.
+constexpr double minPlanarNormal = 0.1;
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  void include(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+// The extent along `tangent` of the part of a triangle between two heights.
+Range extentBetween(const std::array<Eigen::Vector3d, 3>& corners, const Vector2& tangent,
+                    double low, double high) {
+  Range extent;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector3d& a = corners[k];
+    const Eigen::Vector3d& b = corners[(k + 1) % 3];
+    if (low <= a.z() && a.z() <= high) extent.include(tangent.dot(a.head<2>()));
+    for (const double height : {low, high}) {
+      if ((a.z() < height) == (b.z() < height)) continue;
+      const double share = (height - a.z()) / (b.z() - a.z());
+      extent.include(tangent.dot((a + share * (b - a)).head<2>()));
+    }
+  }
+  return extent;
+}
+
+}  // namespace
+
+std::optional<WallSegment> cutWall(const Wall& wall, const VehicleState& state, double low,
+                                   double high) {
+  std::array<Eigen::Vector3d, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    corners[k] = state.axes.transpose() * (wall.corners[k] - state.massCentre);
+  }
+  const Eigen::Vector3d normal = state.axes.transpose() * wall.normal;
+  const double planar = normal.head<2>().norm();
+  if (planar < minPlanarNormal) return std::nullopt;
+
+  WallSegment segment;
+  segment.normal = normal.head<2>() / planar;
+  const Vector2 tangent = turnedLeft(segment.normal);
+  const Range extent = extentBetween(corners, tangent, low, high);
+  if (!(extent.low < extent.high)) return std::nullopt;
+  const Vector2 foot = normal.dot(corners[0]) / planar * segment.normal;
+  segment.start = foot + extent.low * tangent;
+  segment.end = foot + extent.high * tangent;
+  return segment;
+}
+
+WallQuery::WallQuery(const VehicleParameters& parameters, const Band& band)
+    : outline_(parameters),
+      low_(band.bottom - parameters.massCentreHeight),
+      high_(band.top - parameters.massCentreHeight),
+      radius_(std::hypot(std::max(outline_.front, outline_.rear), outline_.halfWidth,
+                         std::max(std::abs(low_), std::abs(high_)))),
+      box_(dCreateBox(nullptr, 1.0, 1.0, 1.0)) {}
+
+WallQuery::~WallQuery() { dGeomDestroy(box_); }
+
+void WallQuery::placeBox(const VehicleState& state, double margin) {
+  const Eigen::Vector3d middle(0.5 * (outline_.front - outline_.rear), 0.0, 0.5 * (low_ + high_));
+  const Eigen::Vector3d place = state.massCentre + state.axes * middle;
+  dMatrix3 rotation = {state.axes(0, 0), state.axes(0, 1), state.axes(0, 2), 0.0,
+                       state.axes(1, 0), state.axes(1, 1), state.axes(1, 2), 0.0,
+                       state.axes(2, 0), state.axes(2, 1), state.axes(2, 2), 0.0};
+  dGeomBoxSetLengths(box_, outline_.front + outline_.rear + 2.0 * margin,
+                     2.0 * outline_.halfWidth + 2.0 * margin, high_ - low_ + 2.0 * margin);
+  dGeomSetPosition(box_, place.x(), place.y(), place.z());
+  dGeomSetRotation(box_, rotation);
+}
+
+void WallQuery::append(const BarrierMesh& barrier, const VehicleState& state,
+                       const ResponseSettings& settings, int firstId,
+                       std::vector<WallSegment>& segments) {
+  if (!barrier.reaches(state.massCentre, radius_)) return;
+  placeBox(state, barrier.margin());
+  barrier.list(box_, near_);
+  for (const int index : near_) {
+    std::optional<WallSegment> segment =
+        cutWall(barrier.walls()[static_cast<std::size_t>(index)], state, low_, high_);
+    if (!segment) continue;
+    segment->id = firstId + index;
+    segment->settings = &settings;
+    segments.push_back(*segment);
+  }
+}
+
+std::optional<Impact> WallQuery::meanOfContacts(const BarrierMesh& barrier,
+                                                const VehicleState& state) {
+  if (!barrier.reaches(state.massCentre, radius_)) return std::nullopt;
+  constexpr int capacity = 64;
+  std::array<dContactGeom, capacity> contacts;
+  placeBox(state, 0.0);
+  const int count = barrier.contacts(box_, contacts.data(), capacity);
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  double weight = 0.0;
+  Impact impact;
+  for (int i = 0; i < count; ++i) {
+    const dContactGeom& contact = contacts[static_cast<std::size_t>(i)];
+    point += contact.depth * toVector(contact.pos);
+    normal += contact.depth * toVector(contact.normal);
+    weight += contact.depth;
+    if (contact.depth > impact.depth) {
+      impact.depth = contact.depth;
+      impact.wall = contact.side2;
+    }
+  }
+  const Vector2 planar = (state.axes.transpose() * normal).head<2>();
+  if (weight <= 0.0 || planar.norm() <= minPlanarNormal * normal.norm()) return std::nullopt;
+  impact.normal = planar.normalized();
+  impact.point = (state.axes.transpose() * (point / weight - state.massCentre)).head<2>();
+  impact.arm = impact.point;
+  return impact;
+}
+
+bool WallQuery::inBand(const VehicleState& state, const Eigen::Vector3d& place, double foot,
+                       double top) const {
+  const auto height = [&](double z) {
+    return state.up().dot(Eigen::Vector3d(place.x(), place.y(), z) - state.massCentre);
+  };
+  return height(top) >= low_ && height(foot) <= high_;
+}
+
+bool WallQuery::allInBand(const VehicleState& state, double highestFoot, double lowestTop) const {
+  const Eigen::Vector3d up = state.up();
+  const double slack = radius_ * up.head<2>().norm();
+  const double footHeight = (highestFoot - state.massCentre.z()) * up.z() + slack;
+  const double topHeight = (lowestTop - state.massCentre.z()) * up.z() - slack;
+  return topHeight >= low_ && footHeight <= high_;
+}
+
+}  // namespace bumper

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <ode/ode.h>
+
+#include <optional>
+#include <vector>
+
+#include "barrier_mesh.h"
+#include "bumper/response/contact_point.h"
+#include "bumper/response/impact.h"
+#include "vehicle_bodies.h"
+
+namespace bumper {
+
+/// Asks a barrier what is near one vehicle's outline. Works in the vehicle's own frame: axes
+/// forward, left, up; origin at the mass centre.
+class WallQuery {
+ public:
+  /// `band` is above the ground, the mass centre at parameters.massCentreHeight.
+  WallQuery(const VehicleParameters& parameters, const Band& band);
+  ~WallQuery();
+  WallQuery(const WallQuery&) = delete;
+  WallQuery& operator=(const WallQuery&) = delete;
+  WallQuery(WallQuery&&) = delete;
+  WallQuery& operator=(WallQuery&&) = delete;
+
+  /// Appends the pieces of the barrier's walls at the outline, cut to the band and laid into the
+  /// yaw plane. A segment's id is `firstId` plus the wall's index in the barrier.
+  void append(const BarrierMesh& barrier, const VehicleState& state,
+              const ResponseSettings& settings, int firstId, std::vector<WallSegment>& segments);
+
+  /// The impact that ODE's own contacts make of the situation: their depth-weighted mean.
+  std::optional<Impact> meanOfContacts(const BarrierMesh& barrier, const VehicleState& state);
+
+  /// Whether a wall that stands between the heights foot and top at a place of the world reaches
+  /// into the band.
+  [[nodiscard]] bool inBand(const VehicleState& state, const Eigen::Vector3d& place, double foot,
+                            double top) const;
+  /// The same for every wall within the outline's reach that has its foot no higher and its top no
+  /// lower than these; false if in doubt.
+  [[nodiscard]] bool allInBand(const VehicleState& state, double highestFoot,
+                               double lowestTop) const;
+
+ private:
+  void placeBox(const VehicleState& state, double margin);
+
+  Outline outline_;
+  double low_;  // the band in the vehicle's frame
+  double high_;
+  double radius_;  // around the mass centre: the outline over the band
+  dGeomID box_;
+  std::vector<int> near_;
+};
+
+/// The part of a wall within [low, high] of a vehicle's z axis, laid into its yaw plane; nothing if
+/// the wall lies outside. The line is where the wall's plane cuts the yaw plane.
+std::optional<WallSegment> cutWall(const Wall& wall, const VehicleState& state, double low,
+                                   double high);
+
+}  // namespace bumper

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "bumper/response/planar_motion.h"
+
+namespace bumper {
+
+/// A quantity as a function of the angle of attack: restitution, friction, or the fraction of
+/// energy that remains. The paper calls its curves "cosine shaped" (Figure 4), which can be read in
+/// two ways; both are here, and any table.
+class AngleCurve {
+ public:
+  /// The same value at every angle.
+  static AngleCurve constant(double value);
+  /// headOn + (grazing − headOn) cos α: "a cosine function of the angle of attack".
+  static AngleCurve cosine(double grazing, double headOn);
+  /// headOn + (grazing − headOn) cos² α: half a period of a cosine, flat at both ends.
+  static AngleCurve halfCosine(double grazing, double headOn);
+  /// Straight lines between (angle in rad, value) points, constant beyond the first and the last.
+  /// Throws Error if there is no point, a number is not finite, or the angles do not increase.
+  static AngleCurve table(std::vector<std::pair<double, double>> points);
+
+  /// The value at an angle of attack from 0 (grazing) to π/2 (head-on), rad.
+  [[nodiscard]] double operator()(double angle) const;
+
+  /// Smallest and largest value over 0 to π/2.
+  [[nodiscard]] std::pair<double, double> range() const;
+
+ private:
+  enum class Shape { cosine, half_cosine, table };
+  Shape shape_ = Shape::cosine;
+  double grazing_ = 0.0;
+  double headOn_ = 0.0;
+  std::vector<std::pair<double, double>> points_;
+};
+
+/// What the angle of attack is measured by; the paper's text allows the second and the third.
+enum class AngleDefinition {
+  contact_velocity,  ///< the direction in which the contact point moves
+  centre_velocity,   ///< the direction in which the mass centre moves
+  heading            ///< the vehicle's x axis
+};
+
+/// The angle against the wall by all three definitions, rad, each folded to [0, π/2].
+struct AnglesOfAttack {
+  double contactVelocity = 0.0;
+  double centreVelocity = 0.0;
+  double heading = 0.0;
+
+  [[nodiscard]] double by(AngleDefinition definition) const;
+};
+
+/// Angle between a direction and a wall with the given unit normal, folded to [0, π/2], rad; 0 for
+/// a zero direction.
+double angleToWall(const Vector2& direction, const Vector2& normal);
+
+}  // namespace bumper

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "bumper/response/planar_motion.h"
+
+/// One contact point between a vehicle and something else, as linear algebra. `normal` is a unit
+/// vector out of the other body into the vehicle; the tangent is z × normal. With A, B, C below an
+/// impulse (J_n, J_t) on the vehicle changes the contact point's relative velocity by
+///
+///     Δv_n = A J_n + C J_t        Δv_t = C J_n + B J_t
+///
+/// A and −C are the paper's h and k (Eqs. 15 and 16).
+namespace bumper {
+
+/// One of the two bodies in contact. The default is a barrier: at rest and of infinite mass.
+struct ContactBody {
+  double inverseMass = 0.0;            ///< 1/kg; 0 for a fixed barrier
+  double inverseYawInertia = 0.0;      ///< 1/(kg m²); 0 for a fixed barrier
+  Vector2 arm = Vector2::Zero();       ///< mass centre to contact point, m
+  Vector2 velocity = Vector2::Zero();  ///< mass centre, m/s
+  double yawRate = 0.0;                ///< rad/s
+};
+
+/// How readily the contact point gives way to an impulse, 1/kg.
+struct ContactMobility {
+  double normal = 0.0;    ///< A: normal velocity per normal impulse
+  double tangent = 0.0;   ///< B: tangential velocity per tangential impulse
+  double coupling = 0.0;  ///< C: either velocity per the other impulse
+
+  /// A B − C² > 0.
+  [[nodiscard]] double determinant() const { return normal * tangent - coupling * coupling; }
+};
+
+/// Velocity of the vehicle's contact point relative to the other body, m/s. Approaching means
+/// normal < 0.
+struct ContactVelocity {
+  double normal = 0.0;
+  double tangent = 0.0;
+};
+
+/// Impulse on the vehicle, N s; the other body gets the opposite.
+struct ContactImpulse {
+  double normal = 0.0;
+  double tangent = 0.0;
+};
+
+/// Sums over both bodies; a barrier adds nothing.
+ContactMobility contactMobility(const ContactBody& vehicle, const ContactBody& other,
+                                const Vector2& normal);
+
+ContactVelocity contactVelocity(const ContactBody& vehicle, const ContactBody& other,
+                                const Vector2& normal);
+
+/// The contact point's velocity after an impulse.
+ContactVelocity afterImpulse(const ContactVelocity& before, const ContactMobility& mobility,
+                             const ContactImpulse& impulse);
+
+/// Kinetic energy that an impulse adds to both bodies together, J; negative for a loss.
+double energyChange(const ContactVelocity& before, const ContactMobility& mobility,
+                    const ContactImpulse& impulse);
+
+/// The impulse as a vector in the plane with its moment about the vehicle's mass centre.
+PlanarImpulse onVehicle(const ContactImpulse& impulse, const Vector2& normal, const Vector2& arm);
+
+}  // namespace bumper

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "bumper/response/angle_curve.h"
+#include "bumper/response/contact_point.h"
+#include "bumper/response/response_settings.h"
+
+namespace bumper {
+
+/// One collision of a vehicle with a wall: where and which way. Vectors are in the frame of the
+/// motion that it was found for.
+struct Impact {
+  int wall = -1;                     ///< WallSegment::id
+  Vector2 point = Vector2::Zero();   ///< contact point on the wall, m
+  Vector2 normal = Vector2::Zero();  ///< unit, out of the wall into the vehicle
+  Vector2 arm = Vector2::Zero();     ///< mass centre to contact point, m
+  double depth = 0.0;                ///< of the overlap when it was noticed, m
+};
+
+/// What the response makes of an impact.
+struct ImpactResponse {
+  Law law = Law::restitution;
+  AnglesOfAttack angles;
+  double approachSpeed = 0.0;  ///< m/s, > 0 when closing
+  double restitution = 0.0;    ///< asked by e(α), or as it came out of the energy law
+  double friction = 0.0;       ///< asked by μ(α)
+  double energyAsked = 1.0;    ///< P(α); NaN under the restitution law
+  double energyRatio = 1.0;    ///< yaw-plane energy after / before
+  EnergyOutcome outcome = EnergyOutcome::not_asked;
+  ContactSolution contact;
+  PlanarImpulse impulse;  ///< on the vehicle
+  PlanarMotion before;
+  PlanarMotion after;
+};
+
+/// The response to an impact of a vehicle of the given mass and yaw inertia that moves as `motion`
+/// says against a fixed wall: reads the curves at the angle of attack and asks the law.
+/// `restitutionScale` in [0, 1] lowers what rebound the settings ask for.
+ImpactResponse respond(const Impact& impact, const PlanarMotion& motion, double mass,
+                       double yawInertia, const ResponseSettings& settings,
+                       double restitutionScale = 1.0);
+
+}  // namespace bumper

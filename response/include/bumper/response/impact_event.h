@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string_view>
+
+#include "bumper/response/impact.h"
+
+namespace bumper {
+
+enum class EventPhase {
+  impact  ///< one impulse with an approach speed above the settings' rest speed
+};
+
+/// One impact as an application sees it. SI units; vectors in the world frame (right-handed, z up)
+/// unless they say otherwise; yaw rates about the vehicle's own z axis, positive turning left. The
+/// names stay valid as long as the vehicle and the barrier are registered.
+struct ImpactEvent {
+  double time = 0.0;  ///< of the impact, counted by the steps taken
+  EventPhase phase = EventPhase::impact;
+  std::string_view vehicle;
+  std::string_view barrier;
+  int triangle = -1;  ///< in the barrier's own mesh
+  std::string_view material;
+
+  Eigen::Vector3d contact = Eigen::Vector3d::Zero();  ///< on the wall, at mass-centre height
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();   ///< unit, out of the wall into the vehicle
+  Vector2 arm = Vector2::Zero();  ///< mass centre to contact point in the vehicle's frame
+
+  Law law = Law::restitution;
+  AnglesOfAttack angles;
+  double approachSpeed = 0.0;  ///< of the contact point, positive when closing
+  double restitution = 0.0;
+  double friction = 0.0;
+  double impulseNormal = 0.0;   ///< N s along normal
+  double impulseTangent = 0.0;  ///< N s along z × normal
+  double impulseRatio = 0.0;
+  double criticalImpulseRatio = 0.0;
+  double deltaV = 0.0;  ///< magnitude of the mass centre's velocity change
+  double yawRateBefore = 0.0;
+  double yawRateAfter = 0.0;
+  double speedBefore = 0.0;  ///< of the mass centre in the yaw plane
+  double speedAfter = 0.0;
+  Eigen::Vector3d velocityAfter = Eigen::Vector3d::Zero();
+  double energyAsked = 1.0;  ///< P; NaN under the restitution law
+  double energyRatio = 1.0;
+  EnergyOutcome outcome = EnergyOutcome::not_asked;
+  Regime regime = Regime::separating;
+};
+
+/// The words that files and logs use.
+std::string_view toString(EventPhase phase);
+std::string_view toString(Law law);
+std::string_view toString(Regime regime);
+std::string_view toString(EnergyOutcome outcome);
+
+}  // namespace bumper

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace bumper {
+
+/// A vector in a vehicle's yaw plane (z up, so that a turn from x to y is positive).
+using Vector2 = Eigen::Vector2d;
+
+/// The z component of the vector product.
+inline double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// z × v: v turned by 90° to the left.
+inline Vector2 turnedLeft(const Vector2& v) { return {-v.y(), v.x()}; }
+
+/// Rotates v by an angle, rad, positive to the left.
+Vector2 rotated(const Vector2& v, double angle);
+
+/// Position and motion of a rigid vehicle in its yaw plane. The plane's frame is the caller's: for
+/// a flat world the world itself, in the ODE adapter the vehicle's own axes at the step's start.
+struct PlanarMotion {
+  Vector2 position = Vector2::Zero();  ///< Mass centre, m.
+  double yaw = 0.0;                    ///< From the frame's x axis, rad, positive to the left.
+  Vector2 velocity = Vector2::Zero();  ///< Mass centre, m/s.
+  double yawRate = 0.0;                ///< rad/s, positive turning left.
+};
+
+/// Velocity of the body point at `arm` from the mass centre (both in the plane's frame).
+inline Vector2 velocityAt(const PlanarMotion& motion, const Vector2& arm) {
+  return motion.velocity + motion.yawRate * turnedLeft(arm);
+}
+
+/// An impulse and its moment about the mass centre: the left sides of Eqs. 1 and 2.
+struct PlanarImpulse {
+  Vector2 linear = Vector2::Zero();  ///< N s
+  double angular = 0.0;              ///< N m s
+};
+
+/// The motion after an impulse acted on the mass centre (Eqs. 1 and 2).
+PlanarMotion afterImpulse(PlanarMotion motion, const PlanarImpulse& impulse, double mass,
+                          double yawInertia);
+
+/// ½ m |v|² + ½ I r² (Eq. 25), J.
+double yawPlaneEnergy(const PlanarMotion& motion, double mass, double yawInertia);
+
+/// Whether all six numbers are finite.
+bool isFinite(const PlanarMotion& motion);
+
+}  // namespace bumper

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "bumper/response/angle_curve.h"
+#include "bumper/response/energy_law.h"
+#include "bumper/response/restitution_law.h"
+
+namespace bumper {
+
+enum class Method {
+  bumper,  ///< the paper's scheme with its gaps closed
+  paper  ///< the paper to the letter: Eq. 17 uncapped, Eq. 32 unbounded, the overlap's own midpoint
+};
+
+enum class Law {
+  restitution,  ///< the coefficient of restitution method
+  energy        ///< the kinetic energy loss method
+};
+
+/// How walls answer. The defaults are the paper's.
+struct ResponseSettings {
+  Method method = Method::bumper;
+  Law law = Law::restitution;
+  /// What the curves below are read at.
+  AngleDefinition angle = AngleDefinition::contact_velocity;
+  /// e(α), values in [0, 1] (Figure 4).
+  AngleCurve restitution = AngleCurve::cosine(0.3, 0.05);
+  /// μ(α), values ≥ 0; with fraction_of_critical in [0, 1].
+  AngleCurve friction = AngleCurve::cosine(0.3, 0.0);
+  Friction::Kind frictionKind = Friction::Kind::coulomb;
+  /// P(α), values in [0, 1]: the fraction of yaw-plane energy that remains. Energy law only.
+  AngleCurve energyRemaining = AngleCurve::cosine(0.92, 0.04);
+  /// Energy law only.
+  EnergyRoot energyRoot = EnergyRoot::rebound;
+  /// A rebound of the energy law leaves with at most this times the approach speed; [0, 1].
+  double maxRestitution = 0.3;
+  /// The contact point is found at the depth that the approach speed reaches in this time, s, ≥ 0.
+  /// Method::bumper only; response/README.md says how the default was chosen.
+  double penetrationTime = 0.0025;
+  /// Restitution fades to 0 as the approach speed falls from this to 0, m/s, ≥ 0, so that a
+  /// vehicle that leans on a wall comes to rest. Slower contacts are no events.
+  double restSpeed = 0.1;
+};
+
+/// Throws Error, naming the value, if one lies outside its range.
+void validate(const ResponseSettings& settings);
+
+}  // namespace bumper

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "bumper/response/contact_solve.h"
+
+namespace bumper {
+
+/// How the contact point slides in an impact.
+enum class Regime {
+  separating,   ///< it does not approach: no impulse
+  sliding,      ///< it keeps sliding in the same direction, at full friction
+  sticking,     ///< friction ends the slip
+  reverse_slip  ///< the normal impulse turns the slip round, full friction opposes that
+};
+
+/// Friction at the contact, Eq. 36.
+struct Friction {
+  enum class Kind {
+    coulomb,              ///< |J_t| ≤ value · J_n
+    fraction_of_critical  ///< J_t/J_n = value · (the impulse ratio that just ends the slip); Brach
+  };
+  Kind kind = Kind::coulomb;
+  double value = 0.0;  ///< ≥ 0; a fraction of the critical ratio lies in [0, 1]
+};
+
+/// What a law answers for one contact point.
+struct ContactSolution {
+  ContactImpulse impulse;         ///< on the vehicle, N s
+  ContactVelocity velocityAfter;  ///< of the contact point, m/s
+  double restitution = 0.0;       ///< −v_n'/v_n as it came out
+  double impulseRatio = 0.0;      ///< J_t/J_n
+  double criticalRatio = 0.0;     ///< J_t/J_n that just ends the slip at this restitution
+  double energyChange = 0.0;      ///< J, ≤ 0
+  Regime regime = Regime::separating;
+  bool restitutionLowered = false;  ///< the restitution asked for would have created energy
+};
+
+/// The coefficient-of-restitution method (Eqs. 3–17): the impulse after which the contact point
+/// leaves with −e v_n, friction opposing the slip that remains.
+///
+/// It equals Eq. 17 wherever full friction does not turn the slip round. Where it would, Eq. 17
+/// drags the contact point backwards; here the impulse ratio stops at the critical one. Where the
+/// restitution asked for would create energy (possible only with friction and e above about 0.5),
+/// it is lowered until none is created, and `restitutionLowered` says so.
+///
+/// `restitution` lies in [0, 1]. Finite for every finite input with A > 0, B > 0, A B > C².
+ContactSolution solveRestitution(const ContactMobility& mobility, const ContactVelocity& before,
+                                 double restitution, const Friction& friction);
+
+/// Eq. 17 as printed: full friction against the initial slip, whatever that leads to. Only the test
+/// for a separating contact is added, and no impulse where h − μk ≤ 0.
+ContactSolution solveRestitutionAsPrinted(const ContactMobility& mobility,
+                                          const ContactVelocity& before, double restitution,
+                                          double friction);
+
+}  // namespace bumper

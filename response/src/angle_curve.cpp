@@ -1,0 +1,87 @@
+#include "bumper/response/angle_curve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "bumper/response/error.h"
+
+namespace bumper {
+
+AngleCurve AngleCurve::constant(double value) { return cosine(value, value); }
+
+AngleCurve AngleCurve::cosine(double grazing, double headOn) {
+  if (!std::isfinite(grazing) || !std::isfinite(headOn)) {
+    throw Error("AngleCurve: both end values must be finite");
+  }
+  AngleCurve curve;
+  curve.shape_ = Shape::cosine;
+  curve.grazing_ = grazing;
+  curve.headOn_ = headOn;
+  return curve;
+}
+
+AngleCurve AngleCurve::halfCosine(double grazing, double headOn) {
+  AngleCurve curve = cosine(grazing, headOn);
+  curve.shape_ = Shape::half_cosine;
+  return curve;
+}
+
+AngleCurve AngleCurve::table(std::vector<std::pair<double, double>> points) {
+  if (points.empty()) throw Error("AngleCurve::table: at least one point is needed");
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!std::isfinite(points[i].first) || !std::isfinite(points[i].second)) {
+      throw Error("AngleCurve::table: point " + std::to_string(i) + " is not finite");
+    }
+    if (i > 0 && !(points[i].first > points[i - 1].first)) {
+      throw Error("AngleCurve::table: the angle of point " + std::to_string(i) + ", " +
+                  std::to_string(points[i].first) + " rad, is not above the one before");
+    }
+  }
+  AngleCurve curve;
+  curve.shape_ = Shape::table;
+  curve.points_ = std::move(points);
+  return curve;
+}
+
+double AngleCurve::operator()(double angle) const {
+  if (shape_ == Shape::table) {
+    if (angle <= points_.front().first) return points_.front().second;
+    const auto above =
+        std::find_if(points_.begin(), points_.end(),
+                     [angle](const std::pair<double, double>& p) { return p.first >= angle; });
+    if (above == points_.end()) return points_.back().second;
+    const auto below = above - 1;
+    const double share = (angle - below->first) / (above->first - below->first);
+    return below->second + share * (above->second - below->second);
+  }
+  const double c = std::cos(angle);
+  const double weight = shape_ == Shape::cosine ? c : c * c;
+  return headOn_ + (grazing_ - headOn_) * weight;
+}
+
+std::pair<double, double> AngleCurve::range() const {
+  if (shape_ != Shape::table) return {std::min(grazing_, headOn_), std::max(grazing_, headOn_)};
+  const auto [low, high] =
+      std::minmax_element(points_.begin(), points_.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; });
+  return {low->second, high->second};
+}
+
+double AnglesOfAttack::by(AngleDefinition definition) const {
+  switch (definition) {
+    case AngleDefinition::contact_velocity:
+      return contactVelocity;
+    case AngleDefinition::centre_velocity:
+      return centreVelocity;
+    case AngleDefinition::heading:
+      return heading;
+  }
+  return contactVelocity;
+}
+
+double angleToWall(const Vector2& direction, const Vector2& normal) {
+  return std::atan2(std::abs(direction.dot(normal)), std::abs(cross(direction, normal)));
+}
+
+}  // namespace bumper

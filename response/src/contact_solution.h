@@ -1,0 +1,25 @@
+#pragma once
+
+#include "bumper/response/restitution_law.h"
+
+namespace bumper {
+
+/// Fills in what follows from an impulse; `regime` is left to the caller.
+ContactSolution describe(const ContactMobility& mobility, const ContactVelocity& before,
+                         const ContactImpulse& impulse);
+
+/// Sliding or reverse slip, by the tangential velocities before and after.
+Regime slipRegime(double before, double after);
+
+/// The impulse ratio J_t/J_n that ends both the slip and the normal velocity −e v_n; infinite,
+/// against the slip, where no compressive impulse does. Brach's critical impulse ratio.
+double criticalImpulseRatio(const ContactMobility& mobility, const ContactVelocity& before,
+                            double restitution);
+
+/// solveRestitution for a normal velocity after of −e v_n with e in (−1, 1]: negative for a vehicle
+/// that goes on through the wall.
+ContactSolution solveForNormalVelocity(const ContactMobility& mobility,
+                                       const ContactVelocity& before, double restitution,
+                                       const Friction& friction);
+
+}  // namespace bumper

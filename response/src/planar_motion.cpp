@@ -1,0 +1,30 @@
+#include "bumper/response/planar_motion.h"
+
+#include <cmath>
+
+namespace bumper {
+
+Vector2 rotated(const Vector2& v, double angle) {
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
+}
+
+PlanarMotion afterImpulse(PlanarMotion motion, const PlanarImpulse& impulse, double mass,
+                          double yawInertia) {
+  motion.velocity += impulse.linear / mass;
+  motion.yawRate += impulse.angular / yawInertia;
+  return motion;
+}
+
+double yawPlaneEnergy(const PlanarMotion& motion, double mass, double yawInertia) {
+  return 0.5 * mass * motion.velocity.squaredNorm() +
+         0.5 * yawInertia * motion.yawRate * motion.yawRate;
+}
+
+bool isFinite(const PlanarMotion& motion) {
+  return motion.position.allFinite() && motion.velocity.allFinite() && std::isfinite(motion.yaw) &&
+         std::isfinite(motion.yawRate);
+}
+
+}  // namespace bumper

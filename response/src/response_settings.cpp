@@ -1,0 +1,45 @@
+#include "bumper/response/response_settings.h"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "bumper/response/error.h"
+
+namespace bumper {
+
+namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+void requireRange(double value, double low, double high, const char* name, const char* unit) {
+  if (std::isfinite(value) && value >= low && value <= high) return;
+  std::ostringstream message;
+  message << "ResponseSettings::" << name << " is " << value << unit << ": it must ";
+  if (std::isinf(high)) {
+    message << "be finite and at least " << low << unit;
+  } else {
+    message << "lie in [" << low << ", " << high << "]";
+  }
+  throw Error(message.str());
+}
+
+void requireCurve(const AngleCurve& curve, double high, const char* name) {
+  const auto [smallest, largest] = curve.range();
+  requireRange(smallest, 0.0, high, name, "");
+  requireRange(largest, 0.0, high, name, "");
+}
+
+}  // namespace
+
+void validate(const ResponseSettings& settings) {
+  requireCurve(settings.restitution, 1.0, "restitution");
+  requireCurve(settings.friction,
+               settings.frictionKind == Friction::Kind::coulomb ? unbounded : 1.0, "friction");
+  requireCurve(settings.energyRemaining, 1.0, "energyRemaining");
+  requireRange(settings.maxRestitution, 0.0, 1.0, "maxRestitution", "");
+  requireRange(settings.penetrationTime, 0.0, unbounded, "penetrationTime", " s");
+  requireRange(settings.restSpeed, 0.0, unbounded, "restSpeed", " m/s");
+}
+
+}  // namespace bumper
