@@ -7,7 +7,7 @@ namespace bumper::examples {
 
 namespace {
 
-constexpr double gravity = 9.81;
+constexpr double gravity = 9.81;  // m/s², of the static tyre loads
 
 // Below this speed a tyre's slip angle is taken as if it rolled this fast, m/s: at standstill the
 // angle means nothing, and its force must not shake the car.
@@ -40,6 +40,12 @@ YawPlaneCar::YawPlaneCar(dWorldID world, dSpaceID space, const YawPlaneCarDesign
   dBodySetLinearVel(body_, speed * std::cos(yaw), speed * std::sin(yaw), 0.0);
   // Turns by exactly yaw rate × step; ODE's default loses a part of a fast turn.
   dBodySetFiniteRotationMode(body_, 1);
+
+  const double axleLoad =
+      0.5 * car.mass * gravity / (design_.massCentreToFrontAxle + design_.massCentreToRearAxle);
+  const double front = axleLoad * design_.massCentreToRearAxle;
+  const double rear = axleLoad * design_.massCentreToFrontAxle;
+  loads_ = {front, front, rear, rear};
 }
 
 YawPlaneCar::~YawPlaneCar() {
@@ -76,18 +82,12 @@ void YawPlaneCar::addTyreForces() {
   const Eigen::Matrix3d toWorld = axes();
   const Eigen::Vector2d velocity = (toWorld.transpose() * this->velocity()).head<2>();
   const double yawRate = this->yawRate();
-  const double wheelbase = design_.massCentreToFrontAxle + design_.massCentreToRearAxle;
-  const double weight = design_.body.mass * gravity;
-
   Eigen::Vector2d force = Eigen::Vector2d::Zero();
   double moment = 0.0;
   const std::array<Eigen::Vector2d, 4> places = wheels();
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Eigen::Vector2d& place = places[i];
     const bool isFront = i < 2;
-    const double load = 0.5 * weight *
-                        (isFront ? design_.massCentreToRearAxle : design_.massCentreToFrontAxle) /
-                        wheelbase;
     const Eigen::Vector2d along = isFront
                                       ? Eigen::Vector2d(std::cos(steering_), std::sin(steering_))
                                       : Eigen::Vector2d::UnitX();
@@ -98,7 +98,7 @@ void YawPlaneCar::addTyreForces() {
 
     Eigen::Vector2d tyre = -design_.corneringStiffness * slipAngle * across;
     if (!isFront) tyre += 0.5 * driveForce_ * along;
-    const double limit = design_.tyreFriction * load;
+    const double limit = design_.tyreFriction * loads_[i];
     if (tyre.norm() > limit) tyre *= limit / tyre.norm();
     force += tyre;
     moment += place.x() * tyre.y() - place.y() * tyre.x();

@@ -22,7 +22,7 @@ struct YawPlaneCarDesign {
   double massCentreToRearAxle = 1.55;   ///< m
   double track = 1.5;                   ///< m
   double corneringStiffness = 30000.0;  ///< N/rad, each tyre
-  double tyreFriction = 0.85;           ///< force limit of a tyre over its static load
+  double tyreFriction = 0.85;           ///< force limit of a tyre over what it carries
 };
 
 /// A car on one ODE box body. Tyre forces act in the yaw plane at mass-centre height, so they
@@ -43,6 +43,9 @@ class YawPlaneCar {
   void steer(double angle) { steering_ = angle; }
   /// Force of the driven rear wheels, N, negative for braking; limited by the tyres.
   void drive(double force) { driveForce_ = force; }
+
+  /// What each tyre carries, N; the static loads unless a suspension says otherwise.
+  void load(const std::array<double, 4>& loads) { loads_ = loads; }
 
   /// Adds this step's tyre forces to the body.
   void addTyreForces();
@@ -66,6 +69,7 @@ class YawPlaneCar {
   dGeomID geom_;
   double steering_ = 0.0;
   double driveForce_ = 0.0;
+  std::array<double, 4> loads_{};
 };
 
 }  // namespace bumper::examples

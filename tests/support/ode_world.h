@@ -127,6 +127,17 @@ class OdeMesh {
   OdeMesh(OdeMesh&&) = delete;
   OdeMesh& operator=(OdeMesh&&) = delete;
 
+  /// Height of the first triangle below `from`, m.
+  [[nodiscard]] double heightBelow(double x, double y, double from) const {
+    const dGeomID ray = dCreateRay(nullptr, 100.0);
+    dGeomRaySetClosestHit(ray, 1);
+    dGeomRaySet(ray, x, y, from, 0.0, 0.0, -1.0);
+    dContactGeom hit = {};
+    dCollide(ray, geom, 1, &hit, sizeof hit);
+    dGeomDestroy(ray);
+    return from - hit.depth;
+  }
+
   dGeomID geom = nullptr;
 
  private:

@@ -1,0 +1,95 @@
+// A lap of the course that stands for Watkins Glen (Figure 9), swerving into the walls on the way.
+//
+//   course [output folder]          default: out/course
+
+#include <ode/ode.h>
+
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <numbers>
+
+#include "bumper/engine_adapter/responder.h"
+#include "bumper/scenes/paper_scenes.h"
+#include "path_follower.h"
+#include "results.h"
+
+namespace {
+
+using namespace bumper;
+using namespace bumper::examples;
+
+constexpr double step = 0.005;            // s
+constexpr double speed = 28.0;            // m/s
+constexpr double longestLap = 260.0;      // s
+constexpr std::size_t linePoints = 1800;  // 3 m apart
+constexpr std::size_t swerveEvery = 120;  // points, to the left and right in turn
+constexpr std::size_t swerveReach = 36;   // points out, and as many back
+constexpr double swerveWidth = 6.4;       // m: with half the car's width 0.3 m beyond the wall
+constexpr double straightCosine = 0.97;   // of the bend over a whole swerve, which needs a straight
+
+// The centre line, but on straights now and then out to a wall and back.
+std::vector<Eigen::Vector2d> swervingLine() {
+  const std::vector<Eigen::Vector2d> centre = courseCentreLine(linePoints);
+  const auto ahead = [&](std::size_t i) {
+    return Eigen::Vector2d((centre[(i + 1) % linePoints] - centre[i % linePoints]).normalized());
+  };
+  std::vector<Eigen::Vector2d> line = centre;
+  double side = 1.0;
+  for (std::size_t first = 0; first < linePoints; first += swerveEvery) {
+    if (ahead(first).dot(ahead(first + 2 * swerveReach)) < straightCosine) continue;
+    for (std::size_t i = 0; i <= 2 * swerveReach; ++i) {
+      const Eigen::Vector2d forward = ahead(first + i);
+      const double out = 0.5 - 0.5 * std::cos(std::numbers::pi * static_cast<double>(i) /
+                                              static_cast<double>(swerveReach));
+      line[(first + i) % linePoints] +=
+          side * swerveWidth * out * Eigen::Vector2d(-forward.y(), forward.x());
+    }
+    side = -side;
+  }
+  return line;
+}
+
+Recording driveLap(dWorldID world, const Scene& scene) {
+  YawPlaneCar car(world, nullptr, {}, {0.0, 0.0, 0.55}, 0.0, speed);
+  PathFollower driver(swervingLine(), speed);
+  Responder responder(world);
+  responder.addBarrier(scene);
+  responder.addVehicle(car.body(), car.design().body, {.name = "car"});
+
+  Recording recording;
+  const std::size_t recorded = recording.addVehicle("car", car.design().body);
+  recording.addPose(recorded, poseOf(car, 0.0));
+  while (driver.laps() == 0 && responder.time() < longestLap) {
+    driver.control(car);
+    car.addTyreForces();
+    for (const ImpactEvent& event : responder.step(step)) recording.addImpact(event);
+    dWorldQuickStep(world, step);
+    recording.addPose(recorded, poseOf(car, responder.time()));
+  }
+  return recording;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const std::filesystem::path folder = argc > 1 ? argv[1] : "out/course";
+    dInitODE2(0);
+    const dWorldID world = dWorldCreate();  // without gravity: the car stays in its yaw plane
+    const Scene scene = course();
+    const Recording recording = driveLap(world, scene);
+    dWorldDestroy(world);
+    dCloseODE();
+
+    std::printf("Course, %zu triangles: %.1f s for the lap, %zu impacts\n", scene.triangles.size(),
+                recording.vehicles()[0].poses.back().time, recording.impacts().size());
+    printImpacts(recording);
+    writeResults(folder, scene, recording, "Course, one lap");
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "course: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

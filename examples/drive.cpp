@@ -1,0 +1,237 @@
+// Drives a car through any mesh file and lets it hit what stands in its way.
+//
+//   drive aalborg.acc --up y --start 200,300 --heading 15 --speed 30 --out out/drive
+//
+// The whole file becomes one ODE trimesh, road and walls in one, as a game would load it: the
+// wheels stand on it, Bumper answers for its walls, ODE's contact joints for the rest.
+
+#include <ode/ode.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "bumper/engine_adapter/responder.h"
+#include "bumper/response/error.h"
+#include "bumper/scenes/scene_files.h"
+#include "ray_suspension.h"
+#include "results.h"
+#include "yaw_plane_car.h"
+
+namespace {
+
+using namespace bumper;
+using namespace bumper::examples;
+
+constexpr double degree = std::numbers::pi / 180.0;
+constexpr double gravity = 9.81;  // m/s²
+
+struct Order {
+  std::filesystem::path scene;
+  std::string up;
+  double scale = 1.0;
+  std::vector<double> start;  // m, two numbers; empty: the middle of the scene
+  double heading = 0.0;       // deg from x towards y
+  double speed = 25.0;        // m/s
+  std::vector<std::string> steering{"0:0"};
+  bool coast = false;
+  double duration = 15.0;  // s
+  double step = 0.005;     // s
+  std::string law = "restitution";
+  std::filesystem::path out = "out/drive";
+};
+
+// Angles of the front wheels over time, rad, straight between the given ones.
+AngleCurve steeringOf(const std::vector<std::string>& entries) {
+  std::vector<std::pair<double, double>> points;
+  for (const std::string& entry : entries) {
+    double time = 0.0;
+    double angle = 0.0;
+    char colon = 0;
+    std::istringstream text(entry);
+    if (!(text >> time >> colon >> angle) || colon != ':' || text.peek() != EOF) {
+      throw Error("--steering: '" + entry + "' is not <seconds>:<degrees>");
+    }
+    points.emplace_back(time, angle * degree);
+  }
+  return AngleCurve::table(points);
+}
+
+// The application's side of ODE: one world, one space, and the scene as one static trimesh.
+struct World {
+  explicit World(const Scene& scene)
+      : world(dWorldCreate()), space(dHashSpaceCreate(nullptr)), joints(dJointGroupCreate(0)) {
+    dWorldSetGravity(world, 0.0, 0.0, -gravity);
+    for (const Eigen::Vector3d& v : scene.vertices) {
+      vertices.insert(vertices.end(), {v.x(), v.y(), v.z()});
+    }
+    for (const Scene::Triangle& t : scene.triangles) {
+      indices.insert(indices.end(), t.corners.begin(), t.corners.end());
+    }
+    data = dGeomTriMeshDataCreate();
+    dGeomTriMeshDataBuildDouble(data, vertices.data(), 3 * sizeof(double),
+                                static_cast<int>(vertices.size() / 3), indices.data(),
+                                static_cast<int>(indices.size()), 3 * sizeof(dTriIndex));
+    mesh = dCreateTriMesh(space, data, nullptr, nullptr, nullptr);
+  }
+  ~World() {
+    dJointGroupDestroy(joints);
+    dGeomDestroy(mesh);
+    dGeomTriMeshDataDestroy(data);
+    dSpaceDestroy(space);
+    dWorldDestroy(world);
+  }
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+  World(World&&) = delete;
+  World& operator=(World&&) = delete;
+
+  static void nearCallback(void* self, dGeomID a, dGeomID b) {
+    static_cast<World*>(self)->collide(a, b);
+  }
+
+  void collide(dGeomID a, dGeomID b) {
+    if (responder->claims(a, b)) return;
+    constexpr int capacity = 32;
+    dContact contacts[capacity] = {};
+    int count = dCollide(a, b, capacity, &contacts[0].geom, sizeof(dContact));
+    count = responder->keepUnclaimed(a, b, contacts, count);
+    for (int i = 0; i < count; ++i) {
+      contacts[i].surface.mode = dContactApprox1;
+      contacts[i].surface.mu = 0.6;
+      dJointAttach(dJointCreateContact(world, joints, &contacts[i]), dGeomGetBody(a),
+                   dGeomGetBody(b));
+    }
+  }
+
+  dWorldID world;
+  dSpaceID space;
+  dJointGroupID joints;
+  std::vector<double> vertices;
+  std::vector<dTriIndex> indices;
+  dTriMeshDataID data = nullptr;
+  dGeomID mesh = nullptr;
+  Responder* responder = nullptr;
+};
+
+Eigen::Vector3d startOf(const Order& order, const Scene& scene, dGeomID mesh, double height) {
+  Eigen::Vector3d low = scene.vertices[0];
+  Eigen::Vector3d high = low;
+  for (const Eigen::Vector3d& v : scene.vertices) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  Eigen::Vector3d start = 0.5 * (low + high);
+  if (!order.start.empty()) start.head<2>() << order.start[0], order.start[1];
+  const double ground = groundHeight(mesh, start.x(), start.y(), high.z() + 1.0);
+  if (std::isnan(ground)) {
+    std::ostringstream message;
+    message << "there is no ground at --start " << start.x() << ',' << start.y()
+            << "; the scene reaches from " << low.x() << ',' << low.y() << " to " << high.x() << ','
+            << high.y() << " m";
+    throw Error(message.str());
+  }
+  start.z() = ground + height;
+  return start;
+}
+
+Recording run(const Order& order, const Scene& scene) {
+  World world(scene);
+  Responder responder(
+      world.world, {.response = {.law = order.law == "energy" ? Law::energy : Law::restitution}});
+  world.responder = &responder;
+  const BarrierId barrier =
+      responder.addBarrier(world.mesh, {.name = order.scene.filename().string()});
+  const WallReport& report = responder.report(barrier);
+  std::printf("%s: %zu triangles, %zu of them walls from %.1f to %.1f m\n",
+              order.scene.filename().string().c_str(), scene.triangles.size(), report.walls,
+              report.lowestFoot, report.highestTop);
+
+  const YawPlaneCarDesign design;
+  YawPlaneCar car(world.world, world.space, design,
+                  startOf(order, scene, world.mesh, design.body.massCentreHeight),
+                  order.heading * degree, order.speed);
+  responder.addVehicle(car.body(), design.body, {.name = "car"});
+  RaySuspension suspension(car, world.mesh, gravity);
+  const AngleCurve steering = steeringOf(order.steering);
+
+  Recording recording;
+  const std::size_t recorded = recording.addVehicle("car", design.body);
+  recording.addPose(recorded, poseOf(car, 0.0));
+  const auto started = std::chrono::steady_clock::now();
+  while (responder.time() < order.duration - 0.5 * order.step) {
+    dSpaceCollide(world.space, &world, &World::nearCallback);
+    car.steer(steering(responder.time()));
+    car.drive(order.coast ? 0.0 : 3000.0 * (order.speed - car.forwardSpeed()));
+    suspension.addForces();
+    car.addTyreForces();
+    for (const ImpactEvent& event : responder.step(order.step)) recording.addImpact(event);
+    dWorldQuickStep(world.world, order.step);
+    dJointGroupEmpty(world.joints);
+    recording.addPose(recorded, poseOf(car, responder.time()));
+    if ((responder.issues() & step_issue::tilted) != 0) {
+      std::printf("the car rolled over after %.2f s\n", responder.time());
+      break;
+    }
+  }
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;
+  std::printf("%.2f s driven in %.3f s: real-time factor %.0f\n", responder.time(), took.count(),
+              responder.time() / took.count());
+  return recording;
+}
+
+LoadOptions loadOptionsOf(const Order& order) {
+  LoadOptions options{.scale = order.scale, .isolate = true};
+  if (order.up == "y") options.up = UpAxis::y;
+  if (order.up == "z") options.up = UpAxis::z;
+  return options;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Order order;
+  CLI::App app("Drives a car through a mesh file and lets it hit what stands in its way.");
+  app.add_option("scene", order.scene, "mesh file, any format that assimp reads")->required();
+  app.add_option("--up", order.up, "the file's up axis, for formats that state none")
+      ->check(CLI::IsMember({"y", "z"}));
+  app.add_option("--scale", order.scale, "metres per unit of the file")->capture_default_str();
+  app.add_option("--start", order.start, "x,y of the start, m, z up (default: the scene's middle)")
+      ->delimiter(',')
+      ->expected(2);
+  app.add_option("--heading", order.heading, "of the start, deg from x towards y")
+      ->capture_default_str();
+  app.add_option("--speed", order.speed, "at the start, and held from then on, m/s")
+      ->capture_default_str();
+  app.add_option("--steering", order.steering,
+                 "front wheel angles over time, <s>:<deg>,<s>:<deg>,…, positive to the left")
+      ->delimiter(',');
+  app.add_flag("--coast", order.coast, "do not hold the speed");
+  app.add_option("--duration", order.duration, "s")->capture_default_str();
+  app.add_option("--step", order.step, "s")->check(CLI::Range(1e-4, 0.05))->capture_default_str();
+  app.add_option("--law", order.law, "")
+      ->check(CLI::IsMember({"restitution", "energy"}))
+      ->capture_default_str();
+  app.add_option("--out", order.out, "folder for tables and pictures")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+
+  try {
+    dInitODE2(0);
+    const Scene scene = loadScene(order.scene, loadOptionsOf(order));
+    const Recording recording = run(order, scene);
+    printImpacts(recording);
+    writeResults(order.out, scene, recording, order.scene.filename().string());
+    dCloseODE();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "drive: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

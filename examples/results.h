@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "bumper/render/recording.h"
+#include "bumper/scenes/scene.h"
+#include "yaw_plane_car.h"
+
+namespace bumper::examples {
+
+/// The car's state for a recording.
+RecordedPose poseOf(const YawPlaneCar& car, double time);
+
+/// Writes events.csv, trajectory.csv, snapshot.png and top_view.png into a folder, and says so.
+void writeResults(const std::filesystem::path& folder, const Scene& scene,
+                  const Recording& recording, const std::string& title);
+
+/// Prints the impacts in the order of time, one a line; of more than `most` the hardest.
+void printImpacts(const Recording& recording, std::size_t most = 24);
+
+}  // namespace bumper::examples

@@ -1,0 +1,60 @@
+// The paper's test: 60 mph into an L-shaped wall (Figures 4, 6, 7 and 8), by both laws.
+//
+//   test_rail [output folder]          default: out/test_rail
+
+#include <ode/ode.h>
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <string>
+
+#include "bumper/engine_adapter/responder.h"
+#include "bumper/response/error.h"
+#include "bumper/scenes/paper_scenes.h"
+#include "plots.h"
+#include "results.h"
+#include "test_rail_run.h"
+
+namespace {
+
+using namespace bumper;
+using namespace bumper::examples;
+
+void runLaw(const std::filesystem::path& folder, Law law) {
+  ResponseSettings settings;
+  settings.law = law;
+  const std::string name(toString(law));
+  const Scene scene = testRail();
+  const Recording recording = runTestRail(scene, settings);
+
+  std::printf("\nTest rail, %zu triangles, law: %s\n", scene.triangles.size(), name.c_str());
+  printImpacts(recording);
+  writeResults(folder / name, scene, recording, "Test rail, " + name + " law, 60 mph");
+  if (!havePlotter()) {
+    std::printf("  gnuplot is not installed: no plots\n");
+    return;
+  }
+  plotYawRate(recording, folder / name / "yaw_rate.png");
+  plotTrajectory(scene, recording, folder / name / "trajectory.png");
+  plotCurves(settings, folder / name / "curves.png");
+  for (const char* file : {"yaw_rate.png", "trajectory.png", "curves.png"}) {
+    std::printf("  %s\n", (folder / name / file).string().c_str());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const std::filesystem::path folder = argc > 1 ? argv[1] : "out/test_rail";
+    dInitODE2(0);
+    runLaw(folder, Law::restitution);
+    runLaw(folder, Law::energy);
+    dCloseODE();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "test_rail: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
