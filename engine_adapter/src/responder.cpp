@@ -148,7 +148,9 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
     throw Error("addVehicle: the tilt limit is " + std::to_string(options.tiltLimit) +
                 " rad: it must lie between 0 and π/2");
   }
-  const Band band = options.band.value_or(defaultBand(parameters));
+  const bool asPaper = self.options.response.method == Method::paper;
+  const Band band =
+      options.band.value_or(asPaper ? plateBand(parameters) : defaultBand(parameters));
   if (!(std::isfinite(band.bottom) && std::isfinite(band.top) && band.bottom < band.top)) {
     throw Error("addVehicle: the band reaches from " + std::to_string(band.bottom) + " m to " +
                 std::to_string(band.top) + " m: the bottom must lie below the top");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "bumper/response/error.h"
@@ -61,11 +62,16 @@ double AngleCurve::operator()(double angle) const {
 }
 
 std::pair<double, double> AngleCurve::range() const {
-  if (shape_ != Shape::table) return {std::min(grazing_, headOn_), std::max(grazing_, headOn_)};
-  const auto [low, high] =
-      std::minmax_element(points_.begin(), points_.end(),
-                          [](const auto& a, const auto& b) { return a.second < b.second; });
-  return {low->second, high->second};
+  constexpr double headOn = 0.5 * std::numbers::pi;
+  // All shapes are monotonic between these places.
+  double low = std::min((*this)(0.0), (*this)(headOn));
+  double high = std::max((*this)(0.0), (*this)(headOn));
+  for (const auto& [angle, value] : points_) {
+    if (angle < 0.0 || angle > headOn) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  return {low, high};
 }
 
 double AnglesOfAttack::by(AngleDefinition definition) const {

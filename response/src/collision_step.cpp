@@ -81,6 +81,39 @@ double approachSpeed(const PlanarMotion& motion, const Vector2& arm, const Vecto
   return -velocityAt(motion, arm).dot(normal);
 }
 
+// A point of the outline and how fast it goes into the wall, m/s.
+struct Approach {
+  ContactPoint contact;
+  double speed = 0.0;
+};
+
+Approach approachAt(const Outline& outline, const PlanarMotion& motion, const Overlap& overlap,
+                    double penetration) {
+  const ContactPoint contact =
+      contactPoint(outline, motion.position, motion.yaw, overlap, penetration);
+  return {contact, approachSpeed(motion, contact.arm, overlap.normal)};
+}
+
+// Of the point of first touch and the corners behind the wall: the first that approaches if it
+// does, else the fastest corner.
+Approach touchingApproach(const Outline& outline, const PlanarMotion& motion,
+                          const Overlap& overlap) {
+  Approach best = approachAt(outline, motion, overlap, 0.0);
+  if (best.speed > restTolerance) return best;
+  const ContactPoints corners = cornersBehind(outline, motion.position, motion.yaw, overlap);
+  for (std::size_t k = 0; k < corners.count; ++k) {
+    const double speed = approachSpeed(motion, corners.points[k].arm, overlap.normal);
+    if (speed > best.speed) best = {corners.points[k], speed};
+  }
+  return best;
+}
+
+// How long ago the wall was touched, s; infinite for one that is not approached.
+double sinceTouch(const Outline& outline, const PlanarMotion& motion, const Overlap& overlap) {
+  const double speed = touchingApproach(outline, motion, overlap).speed;
+  return speed > restTolerance ? overlap.depth / speed : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 CollisionStep::CollisionStep() { impacts_.reserve(maxImpacts); }
@@ -123,7 +156,7 @@ void CollisionStep::findTouched(const Outline& outline, const PlanarMotion& moti
 
 // What lies behind a wall that the outline is already in cannot be hit: its back, the ends of a
 // slab, a second skin.
-void CollisionStep::dropHidden() {
+void CollisionStep::dropHidden(const Outline& outline, const PlanarMotion& motion) {
   constexpr double tolerance = 1e-6;  // m
   const auto behind = [](const Overlap& wall, const Overlap& front) {
     const Vector2 frontTangent = turnedLeft(front.normal);
@@ -138,10 +171,12 @@ void CollisionStep::dropHidden() {
   for (Touched& wall : touched_) {
     for (const Touched& other : touched_) {
       if (&wall == &other || !behind(wall.overlap, other.overlap)) continue;
-      // Each behind the other: a convex corner. The vehicle is at the side where it is less deep.
-      const bool mutual = behind(other.overlap, wall.overlap);
-      if (mutual && wall.overlap.depth < other.overlap.depth) continue;
-      if (mutual && wall.overlap.depth == other.overlap.depth && &wall < &other) continue;
+      if (behind(other.overlap, wall.overlap)) {
+        // Each behind the other: a convex corner. The vehicle came in over the one touched last.
+        const double own = sinceTouch(outline, motion, wall.overlap);
+        const double others = sinceTouch(outline, motion, other.overlap);
+        if (own < others || (own == others && &wall < &other)) continue;
+      }
       wall.hidden = true;
     }
   }
@@ -155,47 +190,32 @@ CollisionStep::Next CollisionStep::nextImpact(const Outline& outline, const Plan
   bool nextIsNew = false;
   for (Touched& wall : touched_) {
     const Overlap& overlap = wall.overlap;
-    const bool asPaper = wall.settings->method == Method::paper;
-    const auto pointAt = [&](double penetration) {
-      return contactPoint(outline, motion.position, motion.yaw, overlap, penetration);
-    };
-
-    // The point that approaches fastest: the deepest one or any corner behind the wall.
-    ContactPoint fastest = pointAt(asPaper ? overlap.depth : 0.0);
-    double speed = approachSpeed(motion, fastest.arm, overlap.normal);
-    if (!asPaper) {
-      const ContactPoints corners = cornersBehind(outline, motion.position, motion.yaw, overlap);
-      for (std::size_t k = 0; k < corners.count; ++k) {
-        const double own = approachSpeed(motion, corners.points[k].arm, overlap.normal);
-        if (own > speed + restTolerance) {
-          fastest = corners.points[k];
-          speed = own;
-        }
-      }
+    if (wall.settings->method == Method::paper) {
+      const Approach middle = approachAt(outline, motion, overlap, overlap.depth);
+      if (wall.struck || middle.speed <= restTolerance) continue;
+      const double urgency = overlap.depth / middle.speed;
+      if (nextIsNew && urgency <= next.urgency) continue;
+      next = {.wall = &wall, .contact = middle.contact, .urgency = urgency};
+      nextIsNew = true;
+      continue;
     }
 
+    const Approach touch = touchingApproach(outline, motion, overlap);
     if (!wall.struck) {
-      if (speed <= restTolerance) continue;
-      const double urgency = overlap.depth / speed;
+      if (touch.speed <= restTolerance) continue;
+      const double urgency = overlap.depth / touch.speed;
       if (nextIsNew && urgency <= next.urgency) continue;
-      next = {.wall = &wall, .contact = fastest, .urgency = urgency};
+      wall.penetration = touch.speed * wall.settings->penetrationTime;
+      const Approach middle = approachAt(outline, motion, overlap, wall.penetration);
+      next = {.wall = &wall,
+              .contact = middle.speed > restTolerance ? middle.contact : touch.contact,
+              .urgency = urgency};
       nextIsNew = true;
-      if (asPaper) continue;
-      const double penetration = speed * wall.settings->penetrationTime;
-      const ContactPoint middle = pointAt(penetration);
-      if (approachSpeed(motion, middle.arm, overlap.normal) > restTolerance) {
-        next.contact = middle;
-      }
-      wall.penetration = penetration;
-    } else if (!nextIsNew && !asPaper) {
-      const ContactPoint middle = pointAt(wall.penetration);
-      const double own = approachSpeed(motion, middle.arm, overlap.normal);
-      if (own > speed) {
-        fastest = middle;
-        speed = own;
-      }
-      if (speed <= restTolerance || speed <= next.urgency) continue;
-      next = {.wall = &wall, .contact = fastest, .urgency = speed};
+    } else if (!nextIsNew) {
+      const Approach middle = approachAt(outline, motion, overlap, wall.penetration);
+      const Approach& faster = middle.speed > touch.speed ? middle : touch;
+      if (faster.speed <= restTolerance || faster.speed <= next.urgency) continue;
+      next = {.wall = &wall, .contact = faster.contact, .urgency = faster.speed};
     }
   }
   return next;
@@ -210,7 +230,7 @@ StepOutcome CollisionStep::resolve(const VehicleParameters& vehicle, const Plana
 
   mergeWalls(walls, motion.position);
   findTouched(outline, motion);
-  dropHidden();
+  dropHidden(outline, motion);
 
   while (true) {
     const Next next = nextImpact(outline, outcome.after);

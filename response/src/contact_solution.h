@@ -11,8 +11,8 @@ ContactSolution describe(const ContactMobility& mobility, const ContactVelocity&
 /// Sliding or reverse slip, by the tangential velocities before and after.
 Regime slipRegime(double before, double after);
 
-/// The impulse ratio J_t/J_n that ends both the slip and the normal velocity −e v_n; infinite,
-/// against the slip, where no compressive impulse does. Brach's critical impulse ratio.
+/// The impulse ratio J_t/J_n that ends both the slip and the normal velocity −e v_n (Brach's
+/// critical impulse ratio); NaN where no compressive impulse does.
 double criticalImpulseRatio(const ContactMobility& mobility, const ContactVelocity& before,
                             double restitution);
 

@@ -79,9 +79,12 @@ EnergySolution withoutDragging(const Direction& d, double impulse, EnergyOutcome
   const ContactSolution contact = along(d, impulse, mobility, before);
   const bool turned = contact.regime == Regime::reverse_slip || before.tangent == 0.0;
   if (!turned) return finish(contact, demand, outcome);
+  const Friction friction{.kind = Friction::Kind::coulomb, .value = demand.friction};
+  // Going on through the wall is a negative restitution, which the public law does not know.
   const ContactSolution capped =
-      solveForNormalVelocity(mobility, before, contact.restitution,
-                             {.kind = Friction::Kind::coulomb, .value = demand.friction});
+      contact.restitution < 0.0
+          ? solveForNormalVelocity(mobility, before, contact.restitution, friction)
+          : solveRestitution(mobility, before, contact.restitution, friction);
   if (capped.impulseRatio == d.ratio) return finish(contact, demand, outcome);
   return finish(capped, demand,
                 outcome == EnergyOutcome::met ? EnergyOutcome::limited_by_friction : outcome);

@@ -13,6 +13,8 @@ namespace {
 // A gain that rounding alone can make of an impact that neither takes nor gives energy.
 constexpr double energyRounding = 1e-13;
 
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
 double againstSlip(double slip) { return slip > 0.0 ? -1.0 : (slip < 0.0 ? 1.0 : 0.0); }
 
 bool createsEnergy(const ContactSolution& solution, const ContactVelocity& before) {
@@ -47,38 +49,49 @@ Regime slipRegime(double before, double after) {
 double criticalImpulseRatio(const ContactMobility& mobility, const ContactVelocity& before,
                             double restitution) {
   const double gain = -(1.0 + restitution) * before.normal;
-  // Both share the factor 1/D > 0, which drops out of their ratio.
   const double normal = gain * mobility.tangent + mobility.coupling * before.tangent;
   const double tangent = -before.tangent * mobility.normal - gain * mobility.coupling;
-  if (normal <= 0.0) {
-    return againstSlip(before.tangent) * std::numeric_limits<double>::infinity();
-  }
-  return tangent / normal;
+  return normal > 0.0 ? tangent / normal : nan;
 }
 
 ContactSolution solveForNormalVelocity(const ContactMobility& mobility,
                                        const ContactVelocity& before, double restitution,
                                        const Friction& friction) {
-  const double critical = criticalImpulseRatio(mobility, before, restitution);
+  const double gain = -(1.0 + restitution) * before.normal;  // q
+  // J* D: the impulse that ends the slip and leaves with −e v_n, up to D > 0.
+  const double stickNormal = gain * mobility.tangent + mobility.coupling * before.tangent;
+  const double stickTangent = -before.tangent * mobility.normal - gain * mobility.coupling;
+  const bool canStick = stickNormal > 0.0;
+  const double critical = canStick ? stickTangent / stickNormal : nan;
+
+  // The slip after the impact grows steadily with the impulse ratio λ, at q D / (A + λC)², and
+  // vanishes at the critical ratio: one clamp covers sliding, sticking and reverse slip.
+  //
+  // A + λC stays positive. It is linear in λ, A > 0 at λ = 0 and q / J_n* > 0 at the critical
+  // ratio, and the clamp leaves λ between those two. Where J_n* ≤ 0 there is no critical ratio;
+  // then q B + C v_t ≤ 0, so friction against the slip has the sign of C and λC ≥ 0.
   double ratio = 0.0;
-  bool sticks = false;
-  if (friction.kind == Friction::Kind::coulomb || std::isinf(critical)) {
-    // The slip after the impact grows steadily with the ratio λ, at q D / (A + λC)² with
-    // q = −(1+e) v_n, and vanishes at the critical ratio: one clamp covers sliding, sticking and
-    // reverse slip.
-    //
-    // A + λC stays positive. It is linear in λ, A > 0 at λ = 0 and q / J_n* > 0 at the critical
-    // ratio, and the clamp leaves λ between those two. Where J_n* ≤ 0 there is no critical ratio;
-    // then q B + C v_t ≤ 0, so friction against the slip has the sign of C and λC ≥ 0.
+  if (!canStick) {
+    ratio = againstSlip(before.tangent) * friction.value;
+  } else if (friction.kind == Friction::Kind::coulomb) {
     ratio = std::clamp(critical, -friction.value, friction.value);
-    sticks = ratio == critical;
   } else {
     ratio = friction.value * critical;
-    sticks = friction.value == 1.0;
   }
-  const double normal = normalImpulse(mobility, before, restitution, ratio);
-  ContactSolution solution =
-      describe(mobility, before, {.normal = normal, .tangent = ratio * normal});
+  const bool sticks = canStick && ratio == critical;
+
+  ContactImpulse impulse;
+  if (sticks) {
+    // Not q / (A + λC), which is 0 / 0 where a fast slip jams.
+    impulse = {.normal = stickNormal / mobility.determinant(),
+               .tangent = stickTangent / mobility.determinant()};
+  } else {
+    impulse.normal = normalImpulse(mobility, before, restitution, ratio);
+    impulse.tangent = ratio * impulse.normal;
+  }
+  ContactSolution solution = describe(mobility, before, impulse);
+  // By construction; read off the velocities it would be noise where the slip is much faster.
+  solution.restitution = restitution;
   solution.impulseRatio = ratio;
   solution.criticalRatio = critical;
   solution.regime =

@@ -35,7 +35,8 @@ struct VehicleOptions {
   /// Bodies that move with the chassis as one: wheels on their joints. They share every impulse as
   /// parts of one rigid body would. A trailer is a vehicle of its own. Copied by addVehicle.
   std::span<const dBodyID> linkedBodies{};
-  /// Default: defaultBand() of the parameters.
+  /// Default: defaultBand() of the parameters, or plateBand() if the responder follows
+  /// Method::paper.
   std::optional<Band> band{};
   /// Beyond this angle between the vehicle's z axis and the vertical, rad, in (0, π/2), Bumper
   /// leaves the vehicle's contacts to ODE: it is rolling over.

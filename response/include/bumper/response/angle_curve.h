@@ -9,7 +9,7 @@ namespace bumper {
 
 /// A quantity as a function of the angle of attack: restitution, friction, or the fraction of
 /// energy that remains. The paper calls its curves "cosine shaped" (Figure 4), which can be read in
-/// two ways; both are here, and any table.
+/// two ways; both are here, and any table. All throw Error on a number that is not finite.
 class AngleCurve {
  public:
   /// The same value at every angle.
@@ -19,7 +19,7 @@ class AngleCurve {
   /// headOn + (grazing − headOn) cos² α: half a period of a cosine, flat at both ends.
   static AngleCurve halfCosine(double grazing, double headOn);
   /// Straight lines between (angle in rad, value) points, constant beyond the first and the last.
-  /// Throws Error if there is no point, a number is not finite, or the angles do not increase.
+  /// Throws Error if there is no point or the angles do not increase.
   static AngleCurve table(std::vector<std::pair<double, double>> points);
 
   /// The value at an angle of attack from 0 (grazing) to π/2 (head-on), rad.

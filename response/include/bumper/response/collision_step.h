@@ -57,7 +57,7 @@ class CollisionStep {
 
   void mergeWalls(std::span<const WallSegment> walls, const Vector2& centre);
   void findTouched(const Outline& outline, const PlanarMotion& motion);
-  void dropHidden();
+  void dropHidden(const Outline& outline, const PlanarMotion& motion);
   Next nextImpact(const Outline& outline, const PlanarMotion& motion);
 
   std::vector<WallSegment> merged_;

@@ -10,7 +10,9 @@ enum class EnergyRoot {
   break_through  ///< the smaller force: the vehicle loses energy and goes on through the wall
 };
 
-/// How the energy that an impact leaves compares with the energy asked for.
+/// How the energy that an impact leaves compares with the energy asked for. Where several reasons
+/// apply: no_break_through before below_reach before limited_by_restitution before
+/// limited_by_friction.
 enum class EnergyOutcome {
   not_asked,               ///< another law answered
   met,                     ///< the energy asked for remains

@@ -15,8 +15,10 @@ enum class Regime {
 /// Friction at the contact, Eq. 36.
 struct Friction {
   enum class Kind {
-    coulomb,              ///< |J_t| ≤ value · J_n
-    fraction_of_critical  ///< J_t/J_n = value · (the impulse ratio that just ends the slip); Brach
+    coulomb,  ///< |J_t| ≤ value · J_n
+    /// J_t/J_n = value · (the impulse ratio that just ends the slip), after Brach; where no
+    /// compressive impulse ends the slip the value is taken as Coulomb's.
+    fraction_of_critical
   };
   Kind kind = Kind::coulomb;
   double value = 0.0;  ///< ≥ 0; a fraction of the critical ratio lies in [0, 1]
@@ -28,8 +30,9 @@ struct ContactSolution {
   ContactVelocity velocityAfter;  ///< of the contact point, m/s
   double restitution = 0.0;       ///< −v_n'/v_n as it came out
   double impulseRatio = 0.0;      ///< J_t/J_n
-  double criticalRatio = 0.0;     ///< J_t/J_n that just ends the slip at this restitution
-  double energyChange = 0.0;      ///< J, ≤ 0
+  /// J_t/J_n that just ends the slip at this restitution; NaN where no compressive impulse does.
+  double criticalRatio = 0.0;
+  double energyChange = 0.0;  ///< J, ≤ 0
   Regime regime = Regime::separating;
   bool restitutionLowered = false;  ///< the restitution asked for would have created energy
 };
@@ -39,10 +42,11 @@ struct ContactSolution {
 ///
 /// It equals Eq. 17 wherever full friction does not turn the slip round. Where it would, Eq. 17
 /// drags the contact point backwards; here the impulse ratio stops at the critical one. Where the
-/// restitution asked for would create energy (possible only with friction and e above about 0.5),
-/// it is lowered until none is created, and `restitutionLowered` says so.
+/// restitution asked for would create energy (never seen within the paper's 0 to 0.3 for both e and
+/// μ), it is lowered until none is created, and `restitutionLowered` says so.
 ///
-/// `restitution` lies in [0, 1]. Finite for every finite input with A > 0, B > 0, A B > C².
+/// `restitution` lies in [0, 1]. All but criticalRatio is finite for finite input with A > 0, B >
+/// 0, A B > C².
 ContactSolution solveRestitution(const ContactMobility& mobility, const ContactVelocity& before,
                                  double restitution, const Friction& friction);
 

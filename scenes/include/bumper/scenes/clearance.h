@@ -1,0 +1,15 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "bumper/scenes/walls.h"
+
+namespace bumper {
+
+/// Distance from a point to the nearest wall in the horizontal plane, m, whatever the heights; 0
+/// above or below a wall that leans, infinite if there is no wall. Looks at every wall: for checks,
+/// pictures and plots, not for a simulation step.
+double clearance(const std::vector<Wall>& walls, const Eigen::Vector2d& point);
+
+}  // namespace bumper

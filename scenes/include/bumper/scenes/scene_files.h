@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+
+#include "bumper/scenes/scene.h"
+
+namespace bumper {
+
+/// The axis of a file that points up. A scene's own is always z.
+enum class UpAxis { x, y, z };
+
+/// How to read a scene file.
+struct LoadOptions {
+  /// Needed for formats that state none (OBJ, STL, PLY, AC3D, 3DS, most others). glTF and Collada
+  /// are y-up by their standard, FBX says it in the file; a value given here wins over theirs.
+  std::optional<UpAxis> up = std::nullopt;
+
+  /// Multiplies all lengths, after the unit that the file states (FBX, Collada) was turned into
+  /// metres; > 0. A file that states no unit is taken to be in metres.
+  double scale = 1.0;
+
+  /// Reads the file in a process of its own, so that nothing a broken or hostile file does to the
+  /// reader can touch the caller: for files that one did not make oneself. Any format that assimp
+  /// knows. Needs the program bumper-read-scene, which is looked for where the environment variable
+  /// BUMPER_READ_SCENE says, beside the running program, and where bumper is installed.
+  ///
+  /// Without it, the formats whose readers stand broken files are read: OBJ, glTF 2 and GLB, STL,
+  /// FBX, 3DS; and AC3D, whose reader does not: a broken AC3D file ends the process.
+  bool isolate = false;
+
+  double timeout = 10.0;                               ///< s, > 0; of a reading in isolation
+  std::size_t memoryLimit = std::size_t{2048} << 20U;  ///< bytes, from 64 MiB; likewise
+};
+
+/// What was made of a file.
+struct LoadReport {
+  std::size_t triangles = 0;              ///< in the scene, after everything below was dropped
+  std::size_t weldedVertices = 0;         ///< joined with one in the same place, to 0.01 mm
+  std::size_t droppedDegenerate = 0;      ///< triangles thinner than a micrometre
+  std::size_t droppedDuplicate = 0;       ///< the same three corners as before, either winding
+  std::size_t droppedPointsAndLines = 0;  ///< faces of one or two corners
+  std::size_t droppedEmptyMeshes = 0;     ///< without vertices or faces
+  UpAxis up = UpAxis::z;                  ///< the file's, as it was taken
+  double metresPerUnit = 1.0;             ///< the file's unit times LoadOptions::scale
+};
+
+/// Reads a mesh file. Node transforms are applied, polygons cut into triangles, corners welded,
+/// degenerate and duplicate triangles dropped. Mesh names are those of the file's nodes.
+///
+/// Throws Error, naming the file, if it cannot be read, holds no triangle, has an index out of
+/// range or a coordinate that is not finite (with the mesh's name), does not say which axis is up
+/// while `options` does not either (with extents and number of walls for y and for z up), or, in
+/// isolation, makes the reader crash, take too long or need too much memory.
+Scene loadScene(const std::filesystem::path& file, const LoadOptions& options = {},
+                LoadReport* report = nullptr);
+
+/// Writes a scene as .obj (with its .mtl beside), .stl or .ply (binary), or .glb, by the file's
+/// ending; single precision. OBJ, STL and PLY are written z-up and do not say so: load them with
+/// `up = UpAxis::z`. GLB is y-up, as its standard demands. Names, materials and colours are kept by
+/// OBJ and GLB. Throws Error, naming the file, on an invalid scene, another ending, or a file that
+/// cannot be written.
+void saveScene(const Scene& scene, const std::filesystem::path& file);
+
+}  // namespace bumper

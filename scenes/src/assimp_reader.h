@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+
+#include "file_scene.h"
+
+namespace bumper {
+
+enum class Formats {
+  safe,  ///< those that the calling process can be trusted with, chosen by the file's ending
+  all,   ///< whatever assimp knows, by ending and content
+};
+
+/// Reads a file with assimp in this process. Throws Error.
+FileScene readWithAssimp(const std::filesystem::path& file, Formats formats);
+
+}  // namespace bumper

@@ -1,0 +1,143 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "assimp_reader.h"
+#include "bumper/scenes/walls.h"
+#include "file_scene.h"
+#include "read_isolated.h"
+#include "weld.h"
+
+namespace bumper {
+
+namespace {
+
+constexpr std::size_t leastMemory = std::size_t{64} << 20U;
+
+void validate(const LoadOptions& options) {
+  if (!(std::isfinite(options.scale) && options.scale > 0.0)) {
+    throw Error("LoadOptions::scale is " + std::to_string(options.scale) +
+                ": it must be finite and positive");
+  }
+  if (!(std::isfinite(options.timeout) && options.timeout > 0.0)) {
+    throw Error("LoadOptions::timeout is " + std::to_string(options.timeout) +
+                " s: it must be finite and positive");
+  }
+  if (options.memoryLimit < leastMemory) {
+    throw Error("LoadOptions::memoryLimit is " + std::to_string(options.memoryLimit) +
+                " bytes: at least " + std::to_string(leastMemory) + " are needed");
+  }
+}
+
+Eigen::Vector3d turned(const Eigen::Vector3d& v, UpAxis up) {
+  switch (up) {
+    case UpAxis::x:
+      return {v.y(), v.z(), v.x()};
+    case UpAxis::y:
+      return {v.x(), -v.z(), v.y()};
+    case UpAxis::z:
+      break;
+  }
+  return v;
+}
+
+void turn(Scene& scene, UpAxis up, double scale) {
+  for (Eigen::Vector3d& vertex : scene.vertices) vertex = scale * turned(vertex, up);
+}
+
+[[noreturn]] void failWithoutUp(const std::filesystem::path& file, const FileScene& read) {
+  Eigen::Vector3d low = read.scene.vertices.front();
+  Eigen::Vector3d high = low;
+  for (const Eigen::Vector3d& vertex : read.scene.vertices) {
+    low = low.cwiseMin(vertex);
+    high = high.cwiseMax(vertex);
+  }
+  const Eigen::Vector3d extents = high - low;
+  std::ostringstream what;
+  what << "does not state which axis is up (format: " << read.format
+       << "): set LoadOptions::up. It extends " << extents.x() << " x " << extents.y() << " x "
+       << extents.z() << " (x, y, z); of " << read.scene.triangles.size() << " triangles, ";
+  for (const UpAxis up : {UpAxis::y, UpAxis::z}) {
+    Scene scene = read.scene;
+    turn(scene, up, read.metresPerUnit);
+    what << selectWalls(scene).report.walls
+         << (up == UpAxis::y ? " are walls with y up, " : " with z up");
+  }
+  throw fileError(file, what.str());
+}
+
+/// Joins corners in the same place and leaves out vertices that no triangle uses.
+void weldVertices(Scene& scene, LoadReport& report) {
+  constexpr std::uint32_t unused = std::numeric_limits<std::uint32_t>::max();
+  const std::vector<std::uint32_t> welded = weld(scene.vertices);
+  std::vector<std::uint32_t> number(welded.size(), unused);
+  std::vector<Eigen::Vector3d> kept;
+  for (Scene::Triangle& triangle : scene.triangles) {
+    for (std::uint32_t& corner : triangle.corners) {
+      const std::uint32_t first = welded[corner];
+      if (number[first] == unused) {
+        number[first] = static_cast<std::uint32_t>(kept.size());
+        kept.push_back(scene.vertices[first]);
+      }
+      corner = number[first];
+    }
+  }
+  for (std::size_t i = 0; i < welded.size(); ++i) report.weldedVertices += welded[i] != i ? 1 : 0;
+  scene.vertices = std::move(kept);
+}
+
+void dropDegenerate(Scene& scene, LoadReport& report) {
+  report.droppedDegenerate = std::erase_if(scene.triangles, [&](const Scene::Triangle& triangle) {
+    return !(thickness(scene.corner(triangle, 0), scene.corner(triangle, 1),
+                       scene.corner(triangle, 2)) >= degenerateThickness);
+  });
+}
+
+void dropDuplicates(Scene& scene, LoadReport& report) {
+  std::set<std::array<std::uint32_t, 3>> seen;
+  report.droppedDuplicate = std::erase_if(scene.triangles, [&](const Scene::Triangle& triangle) {
+    std::array<std::uint32_t, 3> corners = triangle.corners;
+    std::sort(corners.begin(), corners.end());
+    return !seen.insert(corners).second;
+  });
+}
+
+}  // namespace
+
+Scene loadScene(const std::filesystem::path& file, const LoadOptions& options, LoadReport* report) {
+  validate(options);
+  FileScene read;
+  try {
+    read = options.isolate ? readIsolated(file, options) : readWithAssimp(file, Formats::safe);
+  } catch (const std::bad_alloc&) {
+    throw fileError(file, "cannot be read: not enough memory");
+  }
+  if (!options.up && !read.up) failWithoutUp(file, read);
+
+  LoadReport done;
+  done.up = options.up ? *options.up : *read.up;
+  done.metresPerUnit = read.metresPerUnit * options.scale;
+  done.droppedPointsAndLines = read.pointsAndLines;
+  done.droppedEmptyMeshes = read.emptyMeshes;
+  turn(read.scene, done.up, done.metresPerUnit);
+  weldVertices(read.scene, done);
+  dropDegenerate(read.scene, done);
+  dropDuplicates(read.scene, done);
+  done.triangles = read.scene.triangles.size();
+  if (read.scene.triangles.empty()) throw fileError(file, "holds no triangle that has an area");
+  try {
+    bumper::validate(read.scene);
+  } catch (const Error& error) {
+    throw fileError(file, std::string("at this scale: ") + error.what());
+  }
+  if (report != nullptr) *report = done;
+  return std::move(read.scene);
+}
+
+}  // namespace bumper

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "file_scene.h"
+
+namespace bumper {
+
+/// What the reading program hands back: what it read, or in words why it could not.
+using ReadResult = std::variant<FileScene, std::string>;
+
+/// As bytes for a pipe between two programs of one machine.
+std::string pack(const ReadResult& result);
+
+/// Nothing if the bytes are not exactly what pack() makes.
+std::optional<ReadResult> unpack(std::string_view bytes);
+
+}  // namespace bumper

@@ -1,0 +1,170 @@
+// Files that are not what they claim to be: one Error that names the file, nothing left behind.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "bumper/response/error.h"
+#include "bumper/scenes/paper_scenes.h"
+#include "bumper/scenes/scene_files.h"
+#include "left_behind.h"
+#include "temporary_files.h"
+
+namespace bumper {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+std::string binaryGarbage(std::size_t size) {
+  std::mt19937 random(20033);
+  std::uniform_int_distribution<int> byte(0, 255);
+  std::string text(size, '\0');
+  for (char& c : text) c = static_cast<char>(byte(random));
+  return text;
+}
+
+std::string contents(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+class BrokenFiles : public TemporaryFiles {
+ protected:
+  /// Loads and expects an Error that names the file and says all of `what`.
+  template <typename... What>
+  void expectError(const std::filesystem::path& file, LoadOptions options, What... what) {
+    SCOPED_TRACE(file.string() + (options.isolate ? ", isolated" : ", in process"));
+    const NothingLeftBehind check;
+    if (!options.up) options.up = UpAxis::z;
+    EXPECT_THAT([&] { loadScene(file, options); },
+                ThrowsMessage<Error>(AllOf(HasSubstr(file.string()), HasSubstr(what)...)));
+  }
+
+  template <typename... What>
+  void expectErrorEitherWay(const std::filesystem::path& file, What... what) {
+    expectError(file, {}, what...);
+    expectError(file, {.isolate = true}, what...);
+  }
+};
+
+TEST_F(BrokenFiles, Missing) { expectErrorEitherWay(path("missing.obj"), "does not exist"); }
+
+TEST_F(BrokenFiles, Empty) { expectErrorEitherWay(write("empty.stl", ""), "is empty"); }
+
+TEST_F(BrokenFiles, Directory) {
+  std::filesystem::create_directory(path("directory.obj"));
+  expectErrorEitherWay(path("directory.obj"), "is not a file");
+}
+
+TEST_F(BrokenFiles, NamesWithSpacesAndDashes) {
+  const std::filesystem::path file = write("-a b'\"$x.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
+  EXPECT_EQ(loadScene(file, {.up = UpAxis::z}).triangles.size(), 1U);
+  EXPECT_EQ(loadScene(file, {.up = UpAxis::z, .isolate = true}).triangles.size(), 1U);
+}
+
+TEST_F(BrokenFiles, FormatsThatAreOnlyReadInIsolation) {
+  const std::filesystem::path file = path("rail.ply");
+  saveScene(testRail(), file);
+  expectError(file, {}, ".obj", "LoadOptions::isolate");
+  EXPECT_EQ(loadScene(file, {.up = UpAxis::z, .isolate = true}).triangles.size(), 612U);
+  // The content does not choose the reader.
+  std::filesystem::rename(file, path("rail.xyz"));
+  expectError(path("rail.xyz"), {}, "LoadOptions::isolate");
+  std::filesystem::rename(path("rail.xyz"), path("rail.fbx"));
+  expectError(path("rail.fbx"), {}, "cannot be read");
+}
+
+TEST_F(BrokenFiles, Garbage) {
+  for (const std::string ending : {"obj", "gltf", "glb", "stl", "fbx", "3ds"}) {
+    expectErrorEitherWay(write("garbage." + ending, binaryGarbage(5000)));
+  }
+  for (const std::string ending : {"ac", "acc", "ply", "off", "dae", "x", "x3d", "blend", "dxf",
+                                   "lwo", "3mf", "bsp", "ifc", "unknown"}) {
+    expectError(write("garbage." + ending, binaryGarbage(5000)), {.isolate = true});
+  }
+}
+
+TEST_F(BrokenFiles, CutShort) {
+  for (const std::string ending : {"glb", "stl"}) {
+    saveScene(testRail(), path("whole." + ending));
+    const std::string whole = contents(path("whole." + ending));
+    for (const double part : {0.01, 0.5, 0.99}) {
+      const auto size = static_cast<std::size_t>(part * static_cast<double>(whole.size()));
+      expectErrorEitherWay(write("cut." + ending, whole.substr(0, size)));
+    }
+  }
+}
+
+TEST_F(BrokenFiles, WithoutTriangles) {
+  expectErrorEitherWay(write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\n"));
+  expectErrorEitherWay(write("line.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nl 1 2 3\n"), "no triangle");
+  expectErrorEitherWay(write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"),
+                       "no triangle that has an area");
+}
+
+std::string binaryStl(float coordinate) {
+  std::string text(80, ' ');
+  const std::uint32_t count = 1;
+  const std::array<float, 12> numbers{0, 0, 1, 0, 0, 0, 1, 0, 0, 0, coordinate, 0};
+  text.resize(84 + 50);
+  std::memcpy(text.data() + 80, &count, sizeof count);
+  std::memcpy(text.data() + 84, numbers.data(), sizeof numbers);
+  text[132] = '\0';
+  text[133] = '\0';
+  return text;
+}
+
+TEST_F(BrokenFiles, CoordinatesThatAreNotFinite) {
+  EXPECT_EQ(loadScene(write("fine.stl", binaryStl(1.0F)), {.up = UpAxis::z}).triangles.size(), 1U);
+  for (const float bad :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    expectErrorEitherWay(write("bad.stl", binaryStl(bad)), "mesh \"", "not finite");
+  }
+  expectErrorEitherWay(write("bad.obj", "o fence\nv 0 0 0\nv nan 0 0\nv 0 0 1\nf 1 2 3\n"),
+                       "mesh \"fence\"", "not finite");
+}
+
+TEST_F(BrokenFiles, TooLargeForTheScale) {
+  expectError(write("far.obj", "v 0 0 0\nv 1e38 0 0\nv 0 0 1e38\nf 1 2 3\n"),
+              {.up = UpAxis::z, .scale = 1e300});
+}
+
+TEST_F(BrokenFiles, IndicesOutOfRange) {
+  expectErrorEitherWay(write("index.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 9\n"));
+  expectError(write("index.ply",
+                    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                    "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                    "end_header\n0 0 0\n1 0 0\n0 0 1\n3 0 1 9\n"),
+              {.isolate = true}, "uses vertex 9 of 3");
+}
+
+// What follows makes assimp 5.2 loop for ever, crash, and ask for more memory than there is.
+
+TEST_F(BrokenFiles, ThatNeverEnd) {
+  expectError(write("endless.ply", "ply\nformat ascii 1.0\n"), {.isolate = true, .timeout = 0.5},
+              "LoadOptions::timeout");
+}
+
+TEST_F(BrokenFiles, ThatCrashTheReader) {
+  expectError(write("crash.ply", std::string("ply\nformat binary_\0\0", 21)), {.isolate = true},
+              "cannot be read");
+}
+
+TEST_F(BrokenFiles, ThatNeedTooMuchMemory) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the memory limit is off with the address sanitizer, which maps terabytes";
+#endif
+  expectError(write("huge.off", "OFF\n400000000 400000000 0\n0 0 0\n"), {.isolate = true},
+              "LoadOptions::memoryLimit");
+}
+
+}  // namespace
+}  // namespace bumper
