@@ -97,7 +97,7 @@ struct World {
     static_cast<World*>(self)->collide(a, b);
   }
 
-  void collide(dGeomID a, dGeomID b) {
+  void collide(dGeomID a, dGeomID b) const {
     if (responder->claims(a, b)) return;
     constexpr int capacity = 32;
     dContact contacts[capacity] = {};
@@ -194,9 +194,7 @@ LoadOptions loadOptionsOf(const Order& order) {
   return options;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int drive(int argc, char** argv) {
   Order order;
   CLI::App app("Drives a car through a mesh file and lets it hit what stands in its way.");
   app.add_option("scene", order.scene, "mesh file, any format that assimp reads")->required();
@@ -216,22 +214,28 @@ int main(int argc, char** argv) {
   app.add_flag("--coast", order.coast, "do not hold the speed");
   app.add_option("--duration", order.duration, "s")->capture_default_str();
   app.add_option("--step", order.step, "s")->check(CLI::Range(1e-4, 0.05))->capture_default_str();
-  app.add_option("--law", order.law, "")
+  app.add_option("--law", order.law, "how the walls answer")
       ->check(CLI::IsMember({"restitution", "energy"}))
       ->capture_default_str();
   app.add_option("--out", order.out, "folder for tables and pictures")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
+  dInitODE2(0);
+  const Scene scene = loadScene(order.scene, loadOptionsOf(order));
+  const Recording recording = run(order, scene);
+  printImpacts(recording);
+  writeResults(order.out, scene, recording, order.scene.filename().string());
+  dCloseODE();
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    dInitODE2(0);
-    const Scene scene = loadScene(order.scene, loadOptionsOf(order));
-    const Recording recording = run(order, scene);
-    printImpacts(recording);
-    writeResults(order.out, scene, recording, order.scene.filename().string());
-    dCloseODE();
+    return drive(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "drive: %s\n", error.what());
     return 1;
   }
-  return 0;
 }

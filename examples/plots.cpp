@@ -93,8 +93,9 @@ void plotTrajectory(const Scene& scene, const Recording& recording,
     }
   }
   script << "EOD\n$cars << EOD\n";
-  for (double time = vehicle.poses.front().time; time <= vehicle.poses.back().time; time += 0.5) {
-    outlineAt(script, vehicle, time);
+  const double start = vehicle.poses.front().time;
+  for (int half = 0; start + 0.5 * half <= vehicle.poses.back().time; ++half) {
+    outlineAt(script, vehicle, start + 0.5 * half);
   }
   script << "EOD\n$impacts << EOD\n";
   for (const RecordedImpact& impact : recording.impacts()) {

@@ -16,7 +16,7 @@ done
 
 mkdir -p "$root/build"
 install_packages build
-"$root/examples/fetch_tracks.sh" road/aalborg || true
+"$root/examples/fetch_tracks.sh" road/aalborg oval/a-speedway road/forza || true
 configure_and_build
 
 say "Tests"

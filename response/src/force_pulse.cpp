@@ -19,7 +19,7 @@ void ForcePulse::add(const PlanarImpulse& impulse, double start, double step) {
 
 PlanarForce ForcePulse::take(double step) {
   if (!(step > 0.0)) return {};
-  const PlanarForce force{.force = thisStep_.linear / step, .yawMoment = thisStep_.angular / step};
+  PlanarForce force{.force = thisStep_.linear / step, .yawMoment = thisStep_.angular / step};
   thisStep_ = nextStep_;
   nextStep_ = {};
   return force;

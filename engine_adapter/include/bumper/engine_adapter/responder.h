@@ -57,8 +57,8 @@ class Responder {
   ~Responder();
   Responder(const Responder&) = delete;
   Responder& operator=(const Responder&) = delete;
-  Responder(Responder&&) noexcept;
-  Responder& operator=(Responder&&) noexcept;
+  Responder(Responder&& other) noexcept;
+  Responder& operator=(Responder&& other) noexcept;
 
   /// The walls of a scene, as a new trimesh geom in `options.space`. Other bodies collide with that
   /// geom as with any other. The scene is copied. Throws Error if it is invalid or has no wall.
