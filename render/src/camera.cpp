@@ -1,0 +1,279 @@
+#include "camera.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+namespace bumper::drawing {
+
+namespace {
+
+using Eigen::AlignedBox2d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// As documented at SnapshotView::top.
+constexpr double usableWidth = 0.92;
+constexpr double usableHeight = 0.76;
+constexpr double growthInVehicles = 1.5;
+constexpr double leastGrowth = 6.0;
+constexpr double headroom = 8.0;
+
+// As documented at SnapshotView::three_quarter.
+constexpr double elevation = 27.0 * std::numbers::pi / 180.0;
+constexpr double halfFieldOfView = 16.0 * std::numbers::pi / 180.0;  // vertical
+constexpr double usableThreeQuarter = 0.76;
+
+double lengthOf(const VehicleParameters& vehicle) {
+  return vehicle.massCentreToFront + vehicle.massCentreToRear;
+}
+
+Camera topCamera(const Scene& scene, const Recording& recording, const RunExcerpt& run,
+                 const SnapshotOptions& options) {
+  AlignedBox2d frame;
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const auto& path : run.paths) {
+    for (const RecordedPose& pose : path) {
+      frame.extend(Vector2d(pose.position.head<2>()));
+      highest = std::max(highest, pose.position.z());
+    }
+  }
+  for (const DrawnImpact& impact : run.impacts)
+    frame.extend(Vector2d(impact.event.contact.head<2>()));
+  double growth = leastGrowth;
+  for (const RecordedVehicle& vehicle : recording.vehicles())
+    growth = std::max(growth, growthInVehicles * lengthOf(vehicle.parameters));
+
+  Eigen::AlignedBox3d all;
+  for (const Vector3d& vertex : scene.vertices) all.extend(vertex);
+  if (frame.isEmpty()) {
+    frame = AlignedBox2d(all.min().head<2>(), all.max().head<2>());
+    highest = all.max().z();
+  }
+  frame.extend(Vector2d(frame.min() - Vector2d::Constant(growth)));
+  frame.extend(Vector2d(frame.max() + Vector2d::Constant(growth)));
+
+  Camera camera;
+  camera.width = options.width;
+  camera.height = options.height;
+  Vector2d size = frame.sizes();
+  const bool turned = (size.y() > size.x()) == (options.width > options.height);
+  if (turned) {
+    std::swap(size.x(), size.y());
+    camera.axes << 0, 1, 0, -1, 0, 0, 0, 0, 1;
+  }
+  const double scale =
+      std::min(usableWidth * options.width / size.x(), usableHeight * options.height / size.y());
+  const double ceiling = highest + headroom;
+  const double depth = ceiling - std::min(all.min().z(), highest) + 1.0;
+  camera.eye << frame.center(), ceiling;
+  camera.focus << frame.center(), highest;
+  camera.extent = 0.5 * std::hypot(options.width, options.height) / scale;
+  camera.projection.diagonal() << 2.0 * scale / options.width, 2.0 * scale / options.height,
+      -2.0 / depth, 1.0;
+  camera.projection(2, 3) = -1.0;
+  // From the upper left, as readers of maps expect.
+  camera.sun = Vector3d(-0.55 * camera.right() + 0.45 * camera.up() + 0.80 * camera.back());
+  camera.sun.normalize();
+  return camera;
+}
+
+/// Corners of the box around a vehicle.
+void addCorners(const VehicleParameters& vehicle, const RecordedPose& pose,
+                std::vector<Vector3d>& points) {
+  for (const double x : {vehicle.massCentreToFront, -vehicle.massCentreToRear}) {
+    for (const double y : {-0.5 * vehicle.width, 0.5 * vehicle.width}) {
+      for (const double z : {-1.0, 1.6}) {
+        points.emplace_back(pose.position +
+                            pose.orientation * Vector3d(x, y, z * vehicle.massCentreHeight));
+      }
+    }
+  }
+}
+
+/// Where the corners of a vehicle's outline stand on the ground.
+void addWheels(const VehicleParameters& vehicle, const RecordedPose& pose,
+               std::vector<Vector3d>& points) {
+  for (const double x : {vehicle.massCentreToFront, -vehicle.massCentreToRear}) {
+    for (const double y : {-0.5 * vehicle.width, 0.5 * vehicle.width}) {
+      points.emplace_back(pose.position +
+                          pose.orientation * Vector3d(x, y, -0.9 * vehicle.massCentreHeight));
+    }
+  }
+}
+
+/// What a three-quarter view is about, and the way things went there.
+struct Subject {
+  std::vector<Vector3d> points;
+  Vector3d travel = Vector3d::UnitX();  ///< horizontal, unit
+  Vector3d open = Vector3d::Zero();     ///< horizontal, out of the wall; zero without impact
+  std::vector<Vector3d> watched;        ///< few of the points, near the ground
+};
+
+Vector3d horizontal(const Vector3d& direction, const Vector3d& otherwise) {
+  const Vector3d flat(direction.x(), direction.y(), 0.0);
+  return flat.norm() > 1e-6 ? Vector3d(flat.normalized()) : otherwise;
+}
+
+Subject subjectOf(const Scene& scene, const Recording& recording, const RunExcerpt& run) {
+  Subject subject;
+  const DrawnImpact* impact = hardest(run);
+  for (std::size_t v = 0; v < run.paths.size(); ++v) {
+    const auto& path = run.paths[v];
+    if (path.empty()) continue;
+    const RecordedVehicle& vehicle = recording.vehicles()[v];
+    const Vector3d centre = impact != nullptr ? impact->event.contact : path.back().position;
+    const double reach = impact != nullptr ? reachOfImpact : reachOfEnd;
+    std::vector<const RecordedPose*> seen;
+    for (const RecordedPose& pose : path) {
+      if ((pose.position - centre).norm() > reach) continue;
+      addCorners(vehicle.parameters, pose, subject.points);
+      seen.push_back(&pose);
+    }
+    for (std::size_t k = 0; k < seen.size(); k += std::max<std::size_t>(1, seen.size() / 8))
+      addWheels(vehicle.parameters, *seen[k], subject.watched);
+    if (impact != nullptr && impact->event.vehicle != vehicle.name) continue;
+    // The way there: from where the vehicle was a few lengths before.
+    const auto at = impact != nullptr ? poseAt(vehicle, impact->event.time) : path.back();
+    const RecordedPose here = at.value_or(path.back());
+    Vector3d from = path.front().position;
+    for (const RecordedPose& pose : path) {
+      if (pose.time >= here.time) break;
+      if ((pose.position - here.position).norm() >= lengthOf(vehicle.parameters))
+        from = pose.position;
+    }
+    subject.travel = horizontal(
+        here.position - from, horizontal(here.orientation * Vector3d::UnitX(), Vector3d::UnitX()));
+  }
+  if (impact != nullptr) {
+    subject.points.push_back(impact->event.contact);
+    subject.open = horizontal(impact->event.normal, Vector3d::Zero());
+  }
+  if (subject.points.empty()) subject.points = scene.vertices;
+  return subject;
+}
+
+/// Moves a camera of given direction as near as all points allow.
+void fit(Camera& camera, const std::vector<Vector3d>& points, double tangentX, double tangentY) {
+  // In the camera's axes a point (x, y, z) is inside from an eye (X, Y, Z) if |x − X| and |y − Y|
+  // are at most tangent · (Z − z): each side bounds a sum of two unknowns.
+  const auto bounds = [&](int axis, double tangent) {
+    std::array<double, 2> most = {-std::numeric_limits<double>::infinity(),
+                                  -std::numeric_limits<double>::infinity()};
+    for (const Vector3d& point : points) {
+      const Vector3d p = camera.axes * point;
+      most[0] = std::max(most[0], p[axis] + tangent * p.z());
+      most[1] = std::max(most[1], -p[axis] + tangent * p.z());
+    }
+    return most;
+  };
+  const auto x = bounds(0, tangentX);
+  const auto y = bounds(1, tangentY);
+  const double z = std::max((x[0] + x[1]) / (2.0 * tangentX), (y[0] + y[1]) / (2.0 * tangentY));
+  camera.eye = camera.axes.transpose() * Vector3d(0.5 * (x[0] - x[1]), 0.5 * (y[0] - y[1]), z);
+}
+
+/// Seen from behind and from the side that a horizontal unit vector points to.
+Camera cameraFrom(const Vector3d& side, const Subject& subject, const SnapshotOptions& options) {
+  Camera camera;
+  camera.width = options.width;
+  camera.height = options.height;
+  camera.perspective = true;
+
+  const Vector3d backFlat = (-0.72 * subject.travel + 0.69 * side).normalized();
+  const Vector3d back = std::cos(elevation) * backFlat + std::sin(elevation) * Vector3d::UnitZ();
+  const Vector3d right = Vector3d::UnitZ().cross(back).normalized();
+  camera.axes.row(0) = right;
+  camera.axes.row(1) = back.cross(right);
+  camera.axes.row(2) = back;
+  // Walls beside the way and walls ahead are lit from the side that is seen.
+  camera.sun = (0.60 * side - 0.35 * subject.travel + 0.85 * Vector3d::UnitZ()).normalized();
+
+  const double tangentY = std::tan(halfFieldOfView);
+  const double tangentX = tangentY * options.width / options.height;
+  fit(camera, subject.points, usableThreeQuarter * tangentX, usableThreeQuarter * tangentY);
+
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& point : subject.points) box.extend(point);
+  camera.focus = box.center();
+  camera.extent = 0.5 * box.sizes().norm();
+  const double distance = (camera.eye - camera.focus).norm();
+  const double nearest = 0.08 * distance;
+  const double farthest = 12.0 * distance + 400.0;
+  camera.projection << 1.0 / tangentX, 0, 0, 0,           //
+      0, 1.0 / tangentY, 0, 0,                            //
+      0, 0, (farthest + nearest) / (nearest - farthest),  //
+      2.0 * farthest * nearest / (nearest - farthest),    //
+      0, 0, -1, 0;
+  return camera;
+}
+
+/// Whether a triangle cuts the segment between two points.
+bool cuts(const Scene& scene, const Scene::Triangle& triangle, const Vector3d& from,
+          const Vector3d& to) {
+  const Vector3d& origin = scene.corner(triangle, 0);
+  Eigen::Matrix3d basis;
+  basis << scene.corner(triangle, 1) - origin, scene.corner(triangle, 2) - origin, from - to;
+  const double determinant = basis.determinant();
+  if (std::abs(determinant) < 1e-12) return false;
+  const Vector3d share = basis.inverse() * (from - origin);
+  return share.x() >= 0.0 && share.y() >= 0.0 && share.x() + share.y() <= 1.0 && share.z() > 0.0 &&
+         share.z() < 1.0;
+}
+
+/// How many of the points the scene hides.
+int hidden(const Scene& scene, const Vector3d& eye, const std::vector<Vector3d>& points) {
+  return static_cast<int>(std::ranges::count_if(points, [&](const Vector3d& point) {
+    // Not the surface that a point lies on.
+    const Vector3d before = point + 0.02 * (eye - point);
+    return std::ranges::any_of(scene.triangles, [&](const Scene::Triangle& triangle) {
+      return cuts(scene, triangle, before, eye);
+    });
+  }));
+}
+
+Camera threeQuarterCamera(const Scene& scene, const Recording& recording, const RunExcerpt& run,
+                          const SnapshotOptions& options) {
+  const Subject subject = subjectOf(scene, recording, run);
+  const Vector3d left = Vector3d::UnitZ().cross(subject.travel);
+  const Vector3d side = left.dot(subject.open) < -0.05 ? Vector3d(-left) : left;
+  const Camera open = cameraFrom(side, subject, options);
+  const Camera other = cameraFrom(-side, subject, options);
+  return hidden(scene, other.eye, subject.watched) < hidden(scene, open.eye, subject.watched)
+             ? other
+             : open;
+}
+
+}  // namespace
+
+Eigen::Vector4d Camera::clip(const Vector3d& point) const {
+  return projection * (axes * (point - eye)).homogeneous();
+}
+
+std::optional<Vector2d> Camera::pixel(const Vector3d& point) const {
+  const Eigen::Vector4d p = clip(point);
+  if (!(p.w() > 1e-9)) return {};
+  return Vector2d(0.5 * width * (1.0 + p.x() / p.w()), 0.5 * height * (1.0 - p.y() / p.w()));
+}
+
+double Camera::pixelsPerMetre(const Vector3d& point) const {
+  return 0.5 * height * projection(1, 1) / clip(point).w();
+}
+
+Vector3d Camera::towards(const Vector3d& point) const {
+  return perspective ? Vector3d((eye - point).normalized()) : back();
+}
+
+Camera cameraFor(const Scene& scene, const Recording& recording, const RunExcerpt& run,
+                 const SnapshotOptions& options) {
+  return options.view == SnapshotView::top ? topCamera(scene, recording, run, options)
+                                           : threeQuarterCamera(scene, recording, run, options);
+}
+
+}  // namespace bumper::drawing

@@ -1,0 +1,473 @@
+#include "overlay.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "speed_colours.h"
+#include "text.h"
+
+namespace bumper::drawing {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Box = Eigen::AlignedBox2d;
+
+const Colour ink(0.09F, 0.10F, 0.14F, 1.0F);
+const Colour softInk(0.09F, 0.10F, 0.14F, 0.72F);
+const Colour paper(1.0F, 1.0F, 1.0F, 0.86F);
+const Colour white(1.0F, 1.0F, 1.0F, 1.0F);
+const Colour mark(0.87F, 0.00F, 0.47F, 1.0F);
+
+/// Draws in pixels, x to the right and y down.
+class Pen {
+ public:
+  Pen(int width, int height, Triangles& into) : width_(width), height_(height), into_(into) {}
+
+  void triangle(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Colour& colour) {
+    add(a, colour);
+    add(b, colour);
+    add(c, colour);
+  }
+
+  void box(const Box& area, const Colour& colour) { box(area, colour, colour); }
+
+  /// From the left colour to the right one.
+  void box(const Box& area, const Colour& left, const Colour& right) {
+    const Vector2d& upperLeft = area.min();
+    const Vector2d& lowerRight = area.max();
+    const Vector2d upperRight(lowerRight.x(), upperLeft.y());
+    const Vector2d lowerLeft(upperLeft.x(), lowerRight.y());
+    add(upperLeft, left);
+    add(upperRight, right);
+    add(lowerRight, right);
+    add(upperLeft, left);
+    add(lowerRight, right);
+    add(lowerLeft, left);
+  }
+
+  void panel(const Box& area, double radius, const Colour& colour) {
+    const double r = std::min(radius, 0.5 * area.sizes().minCoeff());
+    std::vector<Vector2d> rim;
+    const Box inner(Vector2d(area.min().array() + r), Vector2d(area.max().array() - r));
+    const std::array<Vector2d, 4> centres = {
+        inner.max(), Vector2d(inner.min().x(), inner.max().y()), inner.min(),
+        Vector2d(inner.max().x(), inner.min().y())};
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      for (int k = 0; k <= 6; ++k) {
+        const double angle = (static_cast<double>(corner) + k / 6.0) * std::numbers::pi / 2.0;
+        rim.emplace_back(centres[corner] + r * Vector2d(std::cos(angle), std::sin(angle)));
+      }
+    }
+    for (std::size_t k = 0; k < rim.size(); ++k)
+      triangle(area.center(), rim[k], rim[(k + 1) % rim.size()], colour);
+  }
+
+  void disc(const Vector2d& centre, double radius, const Colour& colour) {
+    panel(Box(Vector2d(centre.array() - radius), Vector2d(centre.array() + radius)), radius,
+          colour);
+  }
+
+  void line(const Vector2d& from, const Vector2d& to, double width, const Colour& colour) {
+    const Vector2d way = to - from;
+    if (way.norm() < 1e-9) return;
+    const Vector2d across = 0.5 * width * Vector2d(-way.y(), way.x()).normalized();
+    triangle(from - across, to - across, to + across, colour);
+    triangle(from - across, to + across, from + across, colour);
+  }
+
+  /// With a head three times as wide as the shaft and, if wanted, a rim all around.
+  void arrow(const Vector2d& from, const Vector2d& to, double width, const Colour& colour,
+             double edge = 0.0) {
+    const Vector2d way = to - from;
+    const double length = way.norm();
+    if (length < 1e-9) return;
+    const Vector2d along = way / length;
+    const Vector2d across(-along.y(), along.x());
+    const double head = std::min(4.5 * width, 0.7 * length);
+    const double half = 0.42 * head;
+    // The rim of a slim triangle reaches farther at its tip.
+    const Vector2d tip = to + edge * (head / half) * along;
+    const Vector2d neck = to - head * along;
+    const Vector2d corner = (half + 1.9 * edge) * across;
+    line(from, neck, width + 2.0 * edge, colour);
+    triangle(neck - edge * along + corner, tip, neck - edge * along - corner, colour);
+  }
+
+  /// With its upper left corner on whole pixels, so that letters stay sharp.
+  void text(const Vector2d& place, const std::string& line, double scale, const Colour& colour) {
+    const Vector2d corner = place.array().round();
+    for (const Box& part : textBoxes(line)) {
+      box(Box(Vector2d(corner + scale * part.min()), Vector2d(corner + scale * part.max())),
+          colour);
+    }
+  }
+
+ private:
+  void add(const Vector2d& point, const Colour& colour) {
+    Vertex vertex;
+    vertex.clip = {static_cast<float>(2.0 * point.x() / width_ - 1.0),
+                   static_cast<float>(1.0 - 2.0 * point.y() / height_), 0.0F, 1.0F};
+    vertex.colour = {colour.x(), colour.y(), colour.z(), colour.w()};
+    into_.push_back(vertex);
+  }
+
+  int width_;
+  int height_;
+  Triangles& into_;
+};
+
+double overlapArea(const Box& a, const Box& b) {
+  const Box common = a.intersection(b);
+  return common.isEmpty() ? 0.0 : common.volume();
+}
+
+Box grown(const Box& box, double by) {
+  return {Vector2d(box.min().array() - by), Vector2d(box.max().array() + by)};
+}
+
+/// A mark whose place on the picture is known.
+struct PlacedMark {
+  const DrawnImpact* impact = nullptr;
+  Vector2d point;
+  Vector2d tip;  ///< of the arrow
+};
+
+/// What a label may cover if it must, at a price per area.
+struct Disliked {
+  Box area;
+  double weight = 0.0;
+};
+
+class Overlay {
+ public:
+  Overlay(const Camera& camera, const RunExcerpt& run, const SnapshotOptions& options,
+          Picture& picture)
+      : camera_(camera),
+        run_(run),
+        options_(options),
+        pen_(options.width, options.height, picture.overlay),
+        // Letters of the font are a few units high: 720 lines take twice that.
+        small_(std::max(1.0, std::round(options.height / 180.0) / 2.0)),
+        large_(std::max(1.0, std::round(options.height / 120.0) / 2.0)),
+        margin_(std::round(0.022 * options.height)),
+        padding_(4.0 * small_) {}
+
+  void addTitle(const std::string& title) {
+    std::string second;
+    if (!run_.poses.empty()) {
+      second = run_.start == run_.end ? fixed(run_.end, 2) + " s"
+                                      : fixed(run_.start, 2) + " s to " + fixed(run_.end, 2) + " s";
+      if (const DrawnImpact* worst = hardest(run_)) {
+        const std::size_t count = run_.impacts.size();
+        second += count == 1 ? ", 1 impact: dv "
+                             : ", " + std::to_string(count) + " impacts, hardest: dv ";
+        second += fixed(worst->event.deltaV, 1) + " m/s";
+      }
+    }
+    const double room = options_.width - 2.0 * (margin_ + padding_);
+    const double scale = scaleFor(title, large_, room);
+    const double secondScale = scaleFor(second, small_, room);
+    const double width = std::max(scale * textWidth(title), secondScale * textWidth(second));
+    const double gap = second.empty() ? 0.0 : 5.0 * secondScale;
+    const double height =
+        scale * capitalHeight + (second.empty() ? 0.0 : gap + secondScale * capitalHeight);
+    const Vector2d corner(margin_, margin_);
+    const Box area(corner,
+                   Vector2d(corner + Vector2d(width + 2.0 * padding_, height + 2.0 * padding_)));
+    addPanel(area);
+    pen_.text(corner + Vector2d(padding_, padding_), title, scale, ink);
+    pen_.text(corner + Vector2d(padding_, padding_ + scale * capitalHeight + gap), second,
+              secondScale, softInk);
+  }
+
+  void addLegend() {
+    const double end = legendEnd(run_);
+    const double barWidth = std::round(0.17 * options_.width);
+    const double barHeight = 6.0 * small_;
+    const std::string name = "speed, m/s";
+    const double line = small_ * capitalHeight;
+    const Vector2d size(barWidth + 2.0 * padding_ + 4.0 * small_,
+                        2.0 * line + barHeight + 2.0 * padding_ + 6.0 * small_);
+    const Vector2d corner(options_.width - margin_ - size.x(),
+                          options_.height - margin_ - size.y());
+    addPanel(Box(corner, Vector2d(corner + size)));
+    const Vector2d start = (corner + Vector2d(padding_ + 2.0 * small_, padding_)).array().round();
+    pen_.text(start, name, small_, ink);
+    const double top = start.y() + line + 2.0 * small_;
+    constexpr int steps = 48;
+    for (int k = 0; k < steps; ++k) {
+      const double from = static_cast<double>(k) / steps;
+      const double to = static_cast<double>(k + 1) / steps;
+      pen_.box(Box(Vector2d(start.x() + barWidth * from, top),
+                   Vector2d(start.x() + barWidth * to, top + barHeight)),
+               legendColour(from), legendColour(to));
+    }
+    for (const double share : {0.0, 0.5, 1.0}) {
+      const double value = share * end;
+      const bool whole = std::abs(value - std::round(value)) < 1e-9;
+      const std::string number = fixed(value, whole ? 0 : (end < 1.0 ? 2 : 1));
+      const double x = start.x() + share * barWidth;
+      const double width = small_ * textWidth(number);
+      pen_.line({x, top + barHeight}, {x, top + barHeight + 2.0 * small_}, small_, ink);
+      pen_.text({std::clamp(x - 0.5 * width, start.x() - small_,
+                            start.x() + barWidth + 2.0 * small_ - width),
+                 top + barHeight + 4.0 * small_},
+                number, small_, ink);
+    }
+  }
+
+  /// A bar of round length, and which way x and y point.
+  void addScaleBar() {
+    const double pixelsPerMetre = camera_.pixelsPerMetre(camera_.focus);
+    const double length = roundedDown(0.17 * options_.width / pixelsPerMetre);
+    const double pixels = length * pixelsPerMetre;
+    const int decimals = length < 1.0 ? static_cast<int>(std::ceil(-std::log10(length))) : 0;
+    const std::string label = fixed(length, decimals) + " m";
+    const double line = small_ * capitalHeight;
+    const double compass = 13.0 * small_;
+    const double barArea = std::max(pixels, small_ * textWidth(label));
+    const Vector2d size(2.0 * padding_ + barArea + compass + 19.0 * small_,
+                        2.0 * padding_ + 2.0 * line + 6.0 * small_);
+    const Vector2d corner(margin_, options_.height - margin_ - size.y());
+    addPanel(Box(corner, Vector2d(corner + size)));
+
+    const double left = corner.x() + padding_ + 2.0 * small_;
+    const double bar = corner.y() + size.y() - padding_ - 3.0 * small_;
+    const double tick = 3.0 * small_;
+    pen_.text({left + 0.5 * (pixels - small_ * textWidth(label)), bar - tick - line - small_},
+              label, small_, ink);
+    pen_.line({left, bar}, {left + pixels, bar}, 1.5 * small_, ink);
+    for (const double x : {left, left + pixels})
+      pen_.line({x, bar - tick}, {x, bar + tick}, 1.5 * small_, ink);
+
+    // The arrows' origin is placed so that both, whichever way they point, stay in the panel.
+    const Vector2d x = onPicture(Vector3d::UnitX());
+    const Vector2d y = onPicture(Vector3d::UnitY());
+    const Vector2d area(left + barArea + 9.0 * small_ + 0.5 * compass,
+                        corner.y() + 0.5 * size.y() + 1.5 * small_);
+    const Vector2d origin = area - 0.5 * compass * (x + y);
+    const auto axis = [&](const Vector2d& way, const std::string& name) {
+      pen_.arrow(origin, origin + compass * way, 1.1 * small_, ink);
+      const Vector2d letter(small_ * textWidth(name), line);
+      // Beside the tip, away from the other axis.
+      const Vector2d beside = origin + (compass + 4.0 * small_) * way;
+      pen_.text(beside - 0.5 * letter + Vector2d(0.5 * small_, -0.5 * small_), name, small_, ink);
+    };
+    axis(x, "x");
+    axis(y, "y");
+  }
+
+  void addImpacts() {
+    std::vector<PlacedMark> marks;
+    const DrawnImpact* worst = hardest(run_);
+    for (const DrawnImpact& impact : run_.impacts) {
+      const auto point = camera_.pixel(impact.event.contact);
+      if (!point) continue;
+      const double share =
+          worst->event.deltaV > 0.0 ? std::sqrt(impact.event.deltaV / worst->event.deltaV) : 0.0;
+      marks.push_back({&impact, *point, arrowTip(impact.event, *point, share)});
+    }
+    const double radius = 3.6 * small_;
+    for (const PlacedMark& placed : marks) {
+      avoided_.push_back(grown(Box(placed.point), radius + small_));
+      if (placed.impact->labelled) {
+        Box arrow(placed.point);
+        avoided_.push_back(grown(Box(arrow.extend(placed.tip)), 1.5 * small_));
+      }
+    }
+    for (const PlacedMark& placed : marks) {
+      if (!placed.impact->labelled) continue;
+      pen_.arrow(placed.point, placed.tip, 1.8 * small_, white, 0.9 * small_);
+    }
+    for (const PlacedMark& placed : marks) {
+      if (!placed.impact->labelled) continue;
+      pen_.arrow(placed.point, placed.tip, 1.8 * small_, ink);
+    }
+    std::vector<Box> labels;
+    for (const PlacedMark& placed : marks) {
+      if (placed.impact->labelled)
+        labels.push_back(placeLabel(placed, marks));
+      else
+        labels.emplace_back();
+    }
+    for (std::size_t k = 0; k < marks.size(); ++k) {
+      if (marks[k].impact->labelled) pen_.line(marks[k].point, labels[k].center(), small_, ink);
+    }
+    for (const PlacedMark& placed : marks) {
+      const double size = placed.impact->labelled ? radius : 0.7 * radius;
+      pen_.disc(placed.point, size + small_, white);
+      pen_.disc(placed.point, size, mark);
+    }
+    for (std::size_t k = 0; k < marks.size(); ++k) {
+      if (marks[k].impact->labelled) drawLabel(*marks[k].impact, labels[k]);
+    }
+  }
+
+  /// Keeps labels away from vehicles and paths where that is possible.
+  void avoidRun() {
+    for (const DrawnPose& drawn : run_.poses)
+      avoid(drawn.pose.position, 2.2, drawn.last ? 4.0 : 1.2);
+    for (const auto& path : run_.paths) {
+      for (std::size_t k = 0; k < path.size(); k += std::max<std::size_t>(1, path.size() / 100))
+        avoid(path[k].position, 0.5, 0.8);
+    }
+  }
+
+ private:
+  [[nodiscard]] static double scaleFor(const std::string& line, double wanted, double room) {
+    double scale = wanted;
+    while (scale > 1.0 && scale * textWidth(line) > room) scale -= 0.5;
+    return scale;
+  }
+
+  [[nodiscard]] static Colour legendColour(double share) {
+    const Eigen::Vector3f colour = speedColour(share);
+    return {colour.x(), colour.y(), colour.z(), 1.0F};
+  }
+
+  [[nodiscard]] Vector2d onPicture(const Vector3d& direction) const {
+    return {camera_.right().dot(direction), -camera_.up().dot(direction)};
+  }
+
+  [[nodiscard]] Vector2d arrowTip(const ImpactEvent& event, const Vector2d& point,
+                                  double share) const {
+    const Vector3d ahead = event.contact + 0.5 * event.normal;
+    const Vector2d way = camera_.pixel(ahead).value_or(point) - point;
+    if (way.norm() < 1e-9) return point;
+    // As long as the direction allows: one that points at the camera is short.
+    const double foreshortening =
+        std::min(1.0, way.norm() / (0.5 * camera_.pixelsPerMetre(event.contact)));
+    return point +
+           (12.0 + 22.0 * share) * small_ * std::max(0.4, foreshortening) * way.normalized();
+  }
+
+  /// A square around a point of the world, half a side in m, that a label should not cover.
+  void avoid(const Vector3d& point, double half, double weight) {
+    const auto centre = camera_.pixel(point);
+    if (!centre) return;
+    disliked_.push_back({grown(Box(*centre), half * camera_.pixelsPerMetre(point)), weight});
+  }
+
+  void addPanel(const Box& area) {
+    pen_.panel(area, 3.0 * small_, paper);
+    avoided_.push_back(grown(area, 2.0 * small_));
+  }
+
+  [[nodiscard]] static std::string numberOf(const DrawnImpact& impact) {
+    return std::to_string(impact.number);
+  }
+
+  [[nodiscard]] static std::string valueOf(const DrawnImpact& impact) {
+    return "dv " + fixed(impact.event.deltaV, 1) + " m/s";
+  }
+
+  [[nodiscard]] Vector2d labelSize(const DrawnImpact& impact) const {
+    return {small_ * (textWidth(numberOf(impact)) + textWidth(valueOf(impact)) + 17.0),
+            small_ * (capitalHeight + 6.0)};
+  }
+
+  /// Where a label hides least: away from the arrow and from other marks if it can, over no other
+  /// label, mark or panel.
+  Box placeLabel(const PlacedMark& placed, const std::vector<PlacedMark>& marks) {
+    const Vector2d size = labelSize(*placed.impact);
+    Vector2d away = placed.point - placed.tip;
+    away = away.norm() > 1e-9 ? Vector2d(away.normalized()) : Vector2d(0.0, 1.0);
+    for (const PlacedMark& other : marks) {
+      const Vector2d apart = placed.point - other.point;
+      if (other.impact->labelled && apart.norm() > 1e-9 && apart.norm() < size.x())
+        away += 2.0 * (1.0 - apart.norm() / size.x()) * apart.normalized();
+    }
+    away = away.stableNormalized();
+    const Box picture(Vector2d(margin_, margin_),
+                      Vector2d(options_.width - margin_, options_.height - margin_));
+    Box best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const double distance : {10.0, 18.0, 28.0, 40.0, 55.0, 72.0}) {
+      for (int k = 0; k < 24; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / 24.0;
+        const Vector2d way(std::cos(angle), std::sin(angle));
+        // The nearest point of the label is at the distance.
+        const double half = std::min(std::abs(0.5 * size.x() / (std::abs(way.x()) + 1e-9)),
+                                     std::abs(0.5 * size.y() / (std::abs(way.y()) + 1e-9)));
+        const Vector2d centre = placed.point + (distance * small_ + half) * way;
+        const Box area(Vector2d(centre - 0.5 * size), Vector2d(centre + 0.5 * size));
+        double cost = 3.0 * distance + 70.0 * (1.0 - way.dot(away));
+        const double unit = small_ * small_;
+        cost += 16.0 * (size.prod() - overlapArea(area, picture)) / unit;
+        for (const Box& taken : avoided_) cost += 16.0 * overlapArea(area, taken) / unit;
+        for (const auto& [taken, weight] : disliked_)
+          cost += weight * overlapArea(area, taken) / unit;
+        for (const Box& dot : leader(placed.point, centre)) {
+          for (const Box& other : labels_) cost += 40.0 * overlapArea(dot, other) / dot.volume();
+        }
+        if (cost < least) {
+          least = cost;
+          best = area;
+        }
+      }
+    }
+    avoided_.push_back(grown(best, 2.0 * small_));
+    labels_.push_back(grown(best, 2.0 * small_));
+    for (const Box& dot : leader(placed.point, best.center())) avoided_.push_back(dot);
+    return best;
+  }
+
+  /// Small boxes along the line from a mark to its label.
+  [[nodiscard]] std::vector<Box> leader(const Vector2d& from, const Vector2d& to) const {
+    std::vector<Box> dots;
+    constexpr int count = 10;
+    for (int k = 2; k < count; ++k) {
+      const double share = static_cast<double>(k) / count;
+      dots.push_back(grown(Box(Vector2d(from + share * (to - from))), 2.0 * small_));
+    }
+    return dots;
+  }
+
+  void drawLabel(const DrawnImpact& impact, const Box& area) {
+    const std::string number = numberOf(impact);
+    const double numberWidth = small_ * (textWidth(number) + 7.0);
+    pen_.panel(grown(area, 0.75 * small_), 4.0 * small_, white);
+    pen_.panel(area, 3.5 * small_, ink);
+    const double baseline = area.center().y() - 0.5 * small_ * capitalHeight;
+    pen_.panel(Box(area.min(), Vector2d(area.min().x() + numberWidth, area.max().y())),
+               3.5 * small_, mark);
+    pen_.text({area.min().x() + 4.0 * small_, baseline}, number, small_, white);
+    pen_.text({area.min().x() + numberWidth + 4.0 * small_, baseline}, valueOf(impact), small_,
+              white);
+  }
+
+  const Camera& camera_;
+  const RunExcerpt& run_;
+  const SnapshotOptions& options_;
+  Pen pen_;
+  double small_;
+  double large_;
+  double margin_;
+  double padding_;
+  std::vector<Box> avoided_;
+  std::vector<Box> labels_;
+  std::vector<Disliked> disliked_;
+};
+
+}  // namespace
+
+double legendEnd(const RunExcerpt& run) { return roundedUp(topSpeed(run)); }
+
+void addOverlay(const Camera& camera, const RunExcerpt& run, const SnapshotOptions& options,
+                const std::string& title, Picture& picture) {
+  Overlay overlay(camera, run, options, picture);
+  if (options.showTitle) overlay.addTitle(title);
+  if (options.showPath && !run.poses.empty()) overlay.addLegend();
+  if (options.showScaleBar && options.view == SnapshotView::top) overlay.addScaleBar();
+  overlay.avoidRun();
+  if (options.showImpacts) overlay.addImpacts();
+}
+
+}  // namespace bumper::drawing

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "bumper/response/vehicle_parameters.h"
+
+namespace bumper::drawing {
+
+/// A triangle of a drawn vehicle in the vehicle's frame (x forward, y left, z up, origin at the
+/// mass centre).
+struct ShapeTriangle {
+  std::array<Eigen::Vector3d, 3> corners;
+  Eigen::Vector3f colour;
+};
+
+/// A car of the given paint that fills the vehicle's outline and stands on the ground: body, cabin
+/// with windows, wheels, pale lamps in front, red ones behind.
+std::vector<ShapeTriangle> vehicleShape(const VehicleParameters& vehicle,
+                                        const Eigen::Vector3f& paint);
+
+}  // namespace bumper::drawing
