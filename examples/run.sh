@@ -30,7 +30,8 @@ say "A drive on a real track"
 if [ "$download" = 1 ]; then "$root/examples/fetch_tracks.sh" road/aalborg || true; fi
 aalborg=$tracks/road/aalborg/aalborg.acc
 if [ -f "$aalborg" ]; then
-  "$build/bin/drive" "$aalborg" --up y --out out/drive
+  "$build/bin/drive" "$aalborg" --up y --start 260,484.5 --heading 3 --speed 25 --duration 14 \
+    --out out/drive
 else
   echo "left out: the track is not there"
 fi

@@ -32,6 +32,8 @@ constexpr double smoothCosine = 0.9;
 constexpr double ribbonWidth = 0.7;        ///< m …
 constexpr double ribbonLeastPixels = 4.0;  ///< … but at least
 constexpr double ribbonAboveGround = 0.02;
+/// From above the height is not seen; a ribbon at knee height does not sink into bumps.
+constexpr double ribbonFromAbove = 0.3;
 /// Below this length on the picture, pixels, a vehicle is drawn as an arrowhead …
 constexpr double leastVehiclePixels = 12.0;
 constexpr double arrowheadPixels = 15.0;  ///< … of this length
@@ -312,9 +314,9 @@ void WorldPainter::addPath(const RecordedVehicle& vehicle, const std::vector<Rec
     const Vector3d& after = path[std::min(k + 1, path.size() - 1)].position;
     const Vector3d way(after.x() - before.x(), after.y() - before.y(), 0.0);
     if (way.norm() > 1e-6) ahead = way.normalized();
+    const double lift = camera_.perspective ? ribbonAboveGround : ribbonFromAbove;
     const Vector3d onGround =
-        path[k].position -
-        Vector3d(0.0, 0.0, vehicle.parameters.massCentreHeight - ribbonAboveGround);
+        path[k].position - Vector3d(0.0, 0.0, vehicle.parameters.massCentreHeight - lift);
     double width = ribbonWidth;
     if (camera_.pixel(onGround))
       width = std::max(width, ribbonLeastPixels / camera_.pixelsPerMetre(onGround));
