@@ -27,6 +27,23 @@ struct Barrier {
   ResponseSettings settings;
 };
 
+/// Learns what acts on a vehicle besides the forces that are known before a step, joints above all:
+/// the difference between the last step's outcome and what it should have been.
+class UnknownForces {
+ public:
+  /// Adds the last step's unknown accelerations to the state's; they rarely change within a step.
+  void foresee(VehicleState& state) const;
+  /// What the coming step should do by the known forces and the impulse in the vehicle's frame.
+  void expect(const VehicleState& known, const PlanarImpulse& impulse, double h);
+  /// The vehicle's motion is no longer its own.
+  void forget() { step_ = 0.0; }
+
+ private:
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
+  double yawRate_ = 0.0;
+  double step_ = 0.0;  // 0: nothing is expected
+};
+
 struct Vehicle {
   Vehicle(const VehicleParameters& itsParameters, const Band& band, double tiltLimit,
           std::string itsName, VehicleBodies itsBodies)
@@ -41,6 +58,7 @@ struct Vehicle {
   VehicleBodies bodies;
   WallQuery query;
   double minUprightness;
+  UnknownForces unknown;
   unsigned issues = step_issue::none;
 
   /// False also where the rotation is not finite.

@@ -31,6 +31,26 @@ void add(PlanarImpulse& sum, const PlanarImpulse& impulse) {
 
 }  // namespace
 
+void UnknownForces::foresee(VehicleState& state) const {
+  // More than tyres can do was a blow or a teleport, and is over.
+  constexpr double mostAcceleration = 15.0;     // m/s²
+  constexpr double mostYawAcceleration = 15.0;  // rad/s²
+  if (step_ <= 0.0) return;
+  const Eigen::Vector3d acceleration = (state.velocity - velocity_) / step_;
+  const double yawAcceleration = (state.yawRate - yawRate_) / step_;
+  if (acceleration.norm() > mostAcceleration || std::abs(yawAcceleration) > mostYawAcceleration) {
+    return;
+  }
+  state.acceleration += acceleration;
+  state.yawAcceleration += yawAcceleration;
+}
+
+void UnknownForces::expect(const VehicleState& known, const PlanarImpulse& impulse, double h) {
+  velocity_ = known.velocity + h * known.acceleration + known.toWorld(impulse.linear) / known.mass;
+  yawRate_ = known.yawRate + h * known.yawAcceleration + impulse.angular / known.yawInertia;
+  step_ = h;
+}
+
 void Responder::Implementation::report(const Vehicle& vehicle, const VehicleState& state,
                                        const Barrier& barrier, int wall, const Impact& impact,
                                        const ImpactResponse& response) {
@@ -111,18 +131,23 @@ PlanarImpulse Responder::Implementation::impulseOfContacts(Vehicle& vehicle,
 
 void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
   vehicle.issues = step_issue::none;
-  const VehicleState state = vehicle.bodies.read();
-  if (!state.isFinite()) {
+  const VehicleState known = vehicle.bodies.read();
+  if (!known.isFinite()) {
     vehicle.issues |= step_issue::not_finite;
+    vehicle.unknown.forget();
     return;
   }
   if (!vehicle.isUpright()) {
     vehicle.issues |= step_issue::tilted;
+    vehicle.unknown.forget();
     return;
   }
+  VehicleState state = known;
+  vehicle.unknown.foresee(state);
   const PlanarImpulse impulse = options.contactSource == ContactSource::exact_cut
                                     ? impulseOfCuts(vehicle, state, h)
                                     : impulseOfContacts(vehicle, state, h);
+  vehicle.unknown.expect(known, impulse, h);
   if (impulse.linear.isZero(0.0) && impulse.angular == 0.0) return;
 
   ForcePulse pulse;

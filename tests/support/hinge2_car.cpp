@@ -78,7 +78,8 @@ Hinge2Car::~Hinge2Car() {
 
 void Hinge2Car::drive(double speed, double maxTorque) {
   for (dJointID axle : axles) {
-    dJointSetHinge2Param(axle, dParamVel2, speed / wheelRadius);
+    // ODE counts the second axis by the chassis against the wheel.
+    dJointSetHinge2Param(axle, dParamVel2, -speed / wheelRadius);
     dJointSetHinge2Param(axle, dParamFMax2, maxTorque);
   }
 }
