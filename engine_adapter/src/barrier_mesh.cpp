@@ -43,7 +43,7 @@ Scene sceneOf(dGeomID trimesh, const std::string& name) {
 BarrierMesh::BarrierMesh(const Scene& scene, const BarrierOptions& options, std::string name,
                          Query query)
     : name_(std::move(name)), ownsGeom_(true) {
-  keepWalls(scene, options);
+  keepWalls(scene, selectWalls(scene, options.walls));
   buildMesh(query);
   const Eigen::Vector3d middle = 0.5 * (low_ + high_);
   geom_ = dCreateTriMesh(options.space, data_, nullptr, nullptr, nullptr);
@@ -54,11 +54,9 @@ BarrierMesh::BarrierMesh(dGeomID trimesh, const BarrierOptions& options, std::st
                          Query query)
     : name_(std::move(name)), geom_(trimesh) {
   const Scene scene = sceneOf(trimesh, name_);
-  keepWalls(scene, options);
-  wallOfTriangle_.assign(scene.triangles.size(), -1);
-  for (std::size_t i = 0; i < walls_.size(); ++i) {
-    wallOfTriangle_[static_cast<std::size_t>(walls_[i].triangle)] = static_cast<int>(i);
-  }
+  Walls selected = selectWalls(scene, options.walls);
+  parts_ = wallParts(scene, selected);
+  keepWalls(scene, std::move(selected));
   buildMesh(query);
 }
 
@@ -68,8 +66,7 @@ BarrierMesh::~BarrierMesh() {
   dGeomTriMeshDataDestroy(data_);
 }
 
-void BarrierMesh::keepWalls(const Scene& scene, const BarrierOptions& options) {
-  Walls selected = selectWalls(scene, options.walls);
+void BarrierMesh::keepWalls(const Scene& scene, Walls selected) {
   if (selected.walls.empty()) {
     throw Error("barrier '" + name_ + "' has no wall: all of its " +
                 std::to_string(scene.triangles.size()) +
@@ -123,9 +120,10 @@ const std::string& BarrierMesh::materialOf(int wall) const {
   return materials_[static_cast<std::size_t>(materialOfWall_[static_cast<std::size_t>(wall)])];
 }
 
-int BarrierMesh::wallOfTriangle(int triangle) const {
-  if (hasWallsOnly()) return triangle;
-  return wallOfTriangle_[static_cast<std::size_t>(triangle)];
+WallPart BarrierMesh::partOf(int triangle) const {
+  const auto index = static_cast<std::size_t>(triangle);
+  if (!hasWallsOnly()) return parts_[index];
+  return {.kind = WallPart::Kind::face, .foot = walls_[index].foot, .top = walls_[index].top};
 }
 
 bool BarrierMesh::reaches(const Eigen::Vector3d& centre, double radius) const {

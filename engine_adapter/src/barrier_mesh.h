@@ -7,6 +7,7 @@
 
 #include "bumper/engine_adapter/barrier.h"
 #include "bumper/scenes/scene.h"
+#include "bumper/scenes/wall_parts.h"
 
 namespace bumper {
 
@@ -32,9 +33,9 @@ class BarrierMesh {
   /// The geom that the application's contacts come with.
   [[nodiscard]] dGeomID geom() const { return geom_; }
   [[nodiscard]] const std::string& materialOf(int wall) const;
-  /// The wall behind a triangle of geom(); -1 for ground.
-  [[nodiscard]] int wallOfTriangle(int triangle) const;
-  [[nodiscard]] bool hasWallsOnly() const { return wallOfTriangle_.empty(); }
+  /// What a triangle of geom() is to the walls.
+  [[nodiscard]] WallPart partOf(int triangle) const;
+  [[nodiscard]] bool hasWallsOnly() const { return parts_.empty(); }
   /// The highest foot and the lowest top of all walls, m.
   [[nodiscard]] double highestFoot() const { return highestFoot_; }
   [[nodiscard]] double lowestTop() const { return lowestTop_; }
@@ -50,7 +51,7 @@ class BarrierMesh {
   [[nodiscard]] double margin() const { return margin_; }
 
  private:
-  void keepWalls(const Scene& scene, const BarrierOptions& options);
+  void keepWalls(const Scene& scene, Walls selected);
   void buildMesh(Query query);
 
   std::string name_;
@@ -58,7 +59,7 @@ class BarrierMesh {
   WallReport report_;
   std::vector<std::string> materials_;
   std::vector<int> materialOfWall_;
-  std::vector<int> wallOfTriangle_;  // empty: the geom holds walls only
+  std::vector<WallPart> parts_;  // by triangle of geom(); empty: it holds walls only
   Eigen::Vector3d low_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d high_ = Eigen::Vector3d::Zero();
   double highestFoot_ = 0.0;

@@ -204,10 +204,14 @@ int Responder::keepUnclaimed(dGeomID a, dGeomID b, dContact* contacts, int count
   const VehicleState state = pair.vehicle->bodies.read();
   const auto isOurs = [&](const dContact& contact) {
     const int triangle = contact.geom.g1 == mesh.geom() ? contact.geom.side1 : contact.geom.side2;
-    const int index = mesh.wallOfTriangle(triangle);
-    if (index < 0) return false;
-    const Wall& wall = mesh.walls()[static_cast<std::size_t>(index)];
-    return pair.vehicle->query.inBand(state, toVector(contact.geom.pos), wall.foot, wall.top);
+    const WallPart part = mesh.partOf(triangle);
+    if (part.kind == WallPart::Kind::none) return false;
+    const Eigen::Vector3d place = toVector(contact.geom.pos);
+    const WallQuery& query = pair.vehicle->query;
+    if (!query.inBand(state, place, part.foot, part.top)) return false;
+    // A cap is the wall's for a vehicle that stands before the wall, and ground for the wheels of
+    // one that drives up to its height.
+    return part.kind == WallPart::Kind::face || query.isAboveBottom(state, place);
   };
   return static_cast<int>(std::remove_if(contacts, contacts + count, isOurs) - contacts);
 }

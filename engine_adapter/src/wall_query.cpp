@@ -138,6 +138,10 @@ bool WallQuery::inBand(const VehicleState& state, const Eigen::Vector3d& place, 
   return height(top) >= low_ && height(foot) <= high_;
 }
 
+bool WallQuery::isAboveBottom(const VehicleState& state, const Eigen::Vector3d& place) const {
+  return state.up().dot(place - state.massCentre) >= low_;
+}
+
 bool WallQuery::allInBand(const VehicleState& state, double highestFoot, double lowestTop) const {
   const Eigen::Vector3d up = state.up();
   const double slack = radius_ * up.head<2>().norm();

@@ -36,8 +36,10 @@ class WallQuery {
   /// into the band.
   [[nodiscard]] bool inBand(const VehicleState& state, const Eigen::Vector3d& place, double foot,
                             double top) const;
-  /// The same for every wall within the outline's reach that has its foot no higher and its top no
-  /// lower than these; false if in doubt.
+  /// Whether a place of the world lies above the band's lower limit.
+  [[nodiscard]] bool isAboveBottom(const VehicleState& state, const Eigen::Vector3d& place) const;
+  /// The same as inBand() for every wall within the outline's reach that has its foot no higher and
+  /// its top no lower than these; false if in doubt.
   [[nodiscard]] bool allInBand(const VehicleState& state, double highestFoot,
                                double lowestTop) const;
 

@@ -44,6 +44,7 @@ class BoxCar {
   [[nodiscard]] Eigen::Vector3d velocity() const {
     return Eigen::Map<const Eigen::Vector3d>(dBodyGetLinearVel(body));
   }
+  [[nodiscard]] double massCentreHeight() const { return dBodyGetPosition(body)[2]; }
   [[nodiscard]] Eigen::Vector3d angularVelocity() const {
     return Eigen::Map<const Eigen::Vector3d>(dBodyGetAngularVel(body));
   }

@@ -111,6 +111,95 @@ TEST(Ownership, RoadAndWallInOneMesh) {
   EXPECT_LT(deepest, 0.08);
 }
 
+// A slab 0.3 m thick on the ground, both sides and the top; each face twice if asked for.
+Scene slabOnGround(double top, bool doubled) {
+  Scene scene = roadWithWall(0.0, top, 1);
+  const Scene back = straightWall({60.0, -0.3}, {-60.0, -0.3}, top, 24, 1);
+  const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+  scene.vertices.insert(scene.vertices.end(), back.vertices.begin(), back.vertices.end());
+  for (Scene::Triangle triangle : back.triangles) {
+    for (std::uint32_t& corner : triangle.corners) corner += first;
+    scene.triangles.push_back(triangle);
+  }
+  for (int i = -12; i < 12; ++i) {
+    const double x = 5.0 * i;
+    addQuad(scene, 0, {x, -0.3, top}, {x + 5.0, -0.3, top}, {x + 5.0, 0.0, top}, {x, 0.0, top});
+  }
+  if (doubled) {
+    const std::vector<Scene::Triangle> once = scene.triangles;
+    scene.triangles.insert(scene.triangles.end(), once.begin(), once.end());
+  }
+  return scene;
+}
+
+// A chassis that is taller than the wall has contacts with the wall's flat top as well; as joints
+// they would answer the hit a second time, or throw the car up.
+TEST(Ownership, TheTopOfAWallIsTheWalls) {
+  for (const bool doubled : {false, true}) {
+    for (const double top : {0.5, 0.75, 0.95, 1.0, 1.05}) {
+      OdeWorld ode(gravity);
+      const OdeMesh mesh(ode.space, slabOnGround(top, doubled));
+      Responder responder(ode.world);
+      responder.addBarrier(mesh.geom);
+      BoxCar car(ode.world, ode.space);
+      dGeomBoxSetLengths(car.geom, 4.6, 1.8, 1.1);  // from 0 to 1.1 m
+      dGeomSetOffsetPosition(car.geom, -0.2, 0.0, 0.0);
+      responder.addVehicle(car.body, car.parameters);
+      const Eigen::Matrix3d axes =
+          Eigen::AngleAxisd(-0.5 * std::numbers::pi, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      car.place({1.7, 2.5, 0.551}, axes);
+      car.move({0.0, -20.0, 0.0}, Eigen::Vector3d::Zero());
+      ode.friction = 0.0;
+      double highest = 0.0;
+      double promised = 0.0;
+      std::size_t events = 0;
+      for (int i = 0; i < 60; ++i) {
+        ode.step(h, &responder, [&] {
+          for (const ImpactEvent& event : responder.step(h)) {
+            ++events;
+            promised = event.velocityAfter.y();
+          }
+        });
+        highest = std::max(highest, car.massCentreHeight());
+      }
+      EXPECT_EQ(events, 1U) << top;
+      EXPECT_NEAR(car.velocity().y(), promised, 0.02) << top;
+      EXPECT_LT(highest, 0.56) << top;
+    }
+  }
+}
+
+// The same top is ground for a car that drives on it, and a ramp is for one that drives up it.
+TEST(Ownership, GroundBehindARetainingWallIsGround) {
+  OdeWorld ode(gravity);
+  // A ramp from z = 0 at x = 0 to 1 m at x = 10, level from there on, between side walls that reach
+  // up to its surface.
+  Scene scene;
+  scene.name = "ramp";
+  scene.meshes.push_back({.name = "ramp", .material = "concrete", .colour = {0.5F, 0.5F, 0.5F}});
+  addQuad(scene, 0, {-20, -2, 0}, {0, -2, 0}, {0, 2, 0}, {-20, 2, 0});
+  addQuad(scene, 0, {0, -2, 0}, {10, -2, 1}, {10, 2, 1}, {0, 2, 0});
+  addQuad(scene, 0, {10, -2, 1}, {60, -2, 1}, {60, 2, 1}, {10, 2, 1});
+  for (const double side : {-2.0, 2.0}) {
+    addQuad(scene, 0, {0, side, -1}, {10, side, -1}, {10, side, 1}, {0, side, 0});
+    addQuad(scene, 0, {10, side, -1}, {60, side, -1}, {60, side, 1}, {10, side, 1});
+  }
+  const OdeMesh mesh(ode.space, scene);
+  Responder responder(ode.world);
+  responder.addBarrier(mesh.geom);
+  Hinge2Car car(ode.world, ode.space, {-8.0, 0.0}, 0.0, 0.0, 8.0);
+  car.drive(8.0, 300.0);
+  responder.addVehicle(car.chassis, car.parameters(), {.linkedBodies = car.wheels});
+  std::size_t events = 0;
+  for (int i = 0; i < 800; ++i) {
+    ode.step(h, &responder, [&] { events += responder.step(h).size(); });
+    EXPECT_EQ(ode.contacts.size(), ode.found.size());
+  }
+  EXPECT_EQ(events, 0U);
+  EXPECT_GT(car.massCentre().x(), 12.0);
+  EXPECT_NEAR(car.massCentre().z(), 1.6, 0.15);
+}
+
 TEST(Ownership, AWallsOnlyBarrierIsClaimedWhole) {
   OdeWorld ode;
   Responder responder(ode.world);

@@ -66,11 +66,8 @@ TEST_F(RealTrack, AFourWheelCarHitsItsWalls) {
   int wallContacts = 0;
   int groundContacts = 0;
   for (int i = 0; i < 600; ++i) {
-    Eigen::Vector3d before;
-    Eigen::Vector3d promised;
+    const Eigen::Vector3d placeBefore = car.massCentre();
     ode.step(h, &responder, [&] {
-      before = car.velocity();
-      promised = before;
       for (const ImpactEvent& event : responder.step(h)) {
         ++impacts;
         // The law's own numbers for what the event says of the contact.
@@ -91,11 +88,20 @@ TEST_F(RealTrack, AFourWheelCarHitsItsWalls) {
       }
     });
     EXPECT_EQ(responder.issues(vehicle), step_issue::none);
+    // Flat contacts as high as the band are the tops of the walls that the chassis is in.
+    const Eigen::Vector3d up = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(
+                                   dBodyGetRotation(car.chassis))
+                                   .col(2);
+    const double bottom = 0.3 - car.parameters().massCentreHeight;
+    const auto isPartOfWall = [&](const dContactGeom& contact) {
+      const Eigen::Map<const Eigen::Vector3d> place(contact.pos);
+      return isWall(mesh.geom, contact) || up.dot(place - placeBefore) > bottom;
+    };
     int foundGround = 0;
     int keptGround = 0;
     for (const dContactGeom& contact : ode.found) {
       if (contact.g1 != mesh.geom && contact.g2 != mesh.geom) continue;
-      if (isWall(mesh.geom, contact)) {
+      if (isPartOfWall(contact)) {
         ++wallContacts;
       } else {
         ++foundGround;
@@ -104,7 +110,7 @@ TEST_F(RealTrack, AFourWheelCarHitsItsWalls) {
     for (const dContactGeom& contact : ode.contacts) {
       if (contact.g1 != mesh.geom && contact.g2 != mesh.geom) continue;
       // A wall joint would be one whose wall lies outside the band: there is none on this straight.
-      EXPECT_FALSE(isWall(mesh.geom, contact)) << "step " << i;
+      EXPECT_FALSE(isPartOfWall(contact)) << "step " << i;
       ++keptGround;
     }
     EXPECT_EQ(keptGround, foundGround);
