@@ -35,7 +35,9 @@ show_packages() {
   packages_of "$@"
   if command -v dpkg-query >/dev/null; then
     say "Of these missing here"
-    missing_of "$@"
+    local missing
+    missing=$(missing_of "$@")
+    echo "${missing:-none}"
   fi
 }
 

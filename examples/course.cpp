@@ -4,6 +4,7 @@
 
 #include <ode/ode.h>
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -75,7 +76,10 @@ Recording driveLap(dWorldID world, const Scene& scene) {
 
 int main(int argc, char** argv) {
   try {
-    const std::filesystem::path folder = argc > 1 ? argv[1] : "out/course";
+    std::filesystem::path folder = "out/course";
+    CLI::App app("A lap of the course that stands for Watkins Glen, swerving into the walls.");
+    app.add_option("folder", folder, "for tables and pictures")->capture_default_str();
+    CLI11_PARSE(app, argc, argv);
     dInitODE2(0);
     const dWorldID world = dWorldCreate();  // without gravity: the car stays in its yaw plane
     const Scene scene = course();

@@ -177,7 +177,8 @@ Recording run(const Order& order, const Scene& scene) {
     dJointGroupEmpty(world.joints);
     recording.addPose(recorded, poseOf(car, responder.time()));
     if ((responder.issues() & step_issue::tilted) != 0) {
-      std::printf("the car rolled over after %.2f s\n", responder.time());
+      std::printf("the car leans beyond 30° after %.2f s, rolled over or in the air: that is all\n",
+                  responder.time());
       break;
     }
   }
@@ -187,11 +188,16 @@ Recording run(const Order& order, const Scene& scene) {
   return recording;
 }
 
-LoadOptions loadOptionsOf(const Order& order) {
+Scene load(const Order& order) {
   LoadOptions options{.scale = order.scale, .isolate = true};
   if (order.up == "y") options.up = UpAxis::y;
   if (order.up == "z") options.up = UpAxis::z;
-  return options;
+  try {
+    return loadScene(order.scene, options);
+  } catch (const Error& error) {
+    if (options.up || std::string(error.what()).find("LoadOptions::up") == std::string::npos) throw;
+    throw Error(std::string(error.what()) + "; here: --up y or --up z");
+  }
 }
 
 int drive(int argc, char** argv) {
@@ -200,10 +206,13 @@ int drive(int argc, char** argv) {
   app.add_option("scene", order.scene, "mesh file, any format that assimp reads")->required();
   app.add_option("--up", order.up, "the file's up axis, for formats that state none")
       ->check(CLI::IsMember({"y", "z"}));
-  app.add_option("--scale", order.scale, "metres per unit of the file")->capture_default_str();
-  app.add_option("--start", order.start, "x,y of the start, m, z up (default: the scene's middle)")
+  app.add_option("--scale", order.scale, "metres per unit of the file")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--start", order.start, "of the start, m, z up (default: the scene's middle)")
       ->delimiter(',')
-      ->expected(2);
+      ->expected(2)
+      ->type_name("X,Y");
   app.add_option("--heading", order.heading, "of the start, deg from x towards y")
       ->capture_default_str();
   app.add_option("--speed", order.speed, "at the start, and held from then on, m/s")
@@ -212,7 +221,9 @@ int drive(int argc, char** argv) {
                  "front wheel angles over time, <s>:<deg>,<s>:<deg>,…, positive to the left")
       ->delimiter(',');
   app.add_flag("--coast", order.coast, "do not hold the speed");
-  app.add_option("--duration", order.duration, "s")->capture_default_str();
+  app.add_option("--duration", order.duration, "s")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_option("--step", order.step, "s")->check(CLI::Range(1e-4, 0.05))->capture_default_str();
   app.add_option("--law", order.law, "how the walls answer")
       ->check(CLI::IsMember({"restitution", "energy"}))
@@ -221,7 +232,7 @@ int drive(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
 
   dInitODE2(0);
-  const Scene scene = loadScene(order.scene, loadOptionsOf(order));
+  const Scene scene = load(order);
   const Recording recording = run(order, scene);
   printImpacts(recording);
   writeResults(order.out, scene, recording, order.scene.filename().string());

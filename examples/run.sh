@@ -11,6 +11,7 @@ for argument in "$@"; do
   case $argument in
     --no-download) download=0 ;;
     --dry-run) show_packages build; exit 0 ;;
+    -h | --help) sed -n '2,/^set/{/^#/s/^# \{0,1\}//p}' "$0"; exit 0 ;;
     *) echo "usage: examples/run.sh [--no-download] [--dry-run]" >&2; exit 2 ;;
   esac
 done

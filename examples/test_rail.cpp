@@ -4,6 +4,7 @@
 
 #include <ode/ode.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -47,7 +48,10 @@ void runLaw(const std::filesystem::path& folder, Law law) {
 
 int main(int argc, char** argv) {
   try {
-    const std::filesystem::path folder = argc > 1 ? argv[1] : "out/test_rail";
+    std::filesystem::path folder = "out/test_rail";
+    CLI::App app("The paper's test: 60 mph into an L-shaped wall, by both laws.");
+    app.add_option("folder", folder, "for tables and pictures")->capture_default_str();
+    CLI11_PARSE(app, argc, argv);
     dInitODE2(0);
     runLaw(folder, Law::restitution);
     runLaw(folder, Law::energy);

@@ -10,6 +10,7 @@ for argument in "$@"; do
   case $argument in
     --long) long=1 ;;
     --dry-run) show_packages build; exit 0 ;;
+    -h | --help) sed -n '2,/^set/{/^#/s/^# \{0,1\}//p}' "$0"; exit 0 ;;
     *) echo "usage: tests/run.sh [--long] [--dry-run]" >&2; exit 2 ;;
   esac
 done

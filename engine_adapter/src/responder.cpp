@@ -49,6 +49,24 @@ void warnOfLosses(dBodyID body, const std::string& vehicle, std::vector<std::str
   }
 }
 
+// A wheel on a joint that is not linked hangs on the chassis as dead weight that no law knows of.
+void warnOfStrangers(dBodyID body, std::span<const dBodyID> vehicle, const std::string& name,
+                     std::vector<std::string>& warnings) {
+  for (int i = 0; i < dBodyGetNumJoints(body); ++i) {
+    const dJointID joint = dBodyGetJoint(body, i);
+    if (dJointGetType(joint) == dJointTypeContact) continue;
+    for (const int side : {0, 1}) {
+      const dBodyID other = dJointGetBody(joint, side);
+      if (other == nullptr || std::find(vehicle.begin(), vehicle.end(), other) != vehicle.end()) {
+        continue;
+      }
+      warnings.push_back("vehicle '" + name +
+                         "': a joint leads to a body that is not among the linked bodies; if it "
+                         "moves with the chassis as one, impulses will be wrong by its mass");
+    }
+  }
+}
+
 OwnedPair ordered(const Responder::Implementation& responder, dGeomID vehicleGeom,
                   dGeomID barrierGeom) {
   if (dGeomIsSpace(vehicleGeom) != 0) return {};
@@ -168,6 +186,7 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
                                            std::move(vehicleBodies));
   for (dBodyID body : bodies) {
     warnOfLosses(body, name, self.warnings);
+    warnOfStrangers(body, bodies, name, self.warnings);
     self.vehicleOfBody.emplace(body, vehicle.get());
   }
   self.vehicles.push_back(std::move(vehicle));

@@ -11,6 +11,7 @@
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/response/error.h"
 #include "bumper/scenes/paper_scenes.h"
+#include "hinge2_car.h"
 #include "ode_world.h"
 
 namespace bumper::tests {
@@ -158,6 +159,18 @@ TEST(BadInput, DampingIsWarnedOf) {
   ASSERT_EQ(responder.warnings().size(), 1U);
   EXPECT_THAT(responder.warnings()[0], ::testing::AllOf(::testing::HasSubstr("taxi"),
                                                         ::testing::HasSubstr("linear damping")));
+}
+
+TEST(BadInput, WheelsThatAreNotLinkedAreWarnedOf) {
+  OdeWorld ode;
+  Responder responder(ode.world);
+  Hinge2Car car(ode.world, ode.space, {0.0, 0.0}, 0.0, 0.0, 0.0);
+  const VehicleParameters chassisOnly = parametersFromBodies(car.chassis, {}, 2.1, 2.1, 1.8, 0.6);
+  responder.removeVehicle(responder.addVehicle(car.chassis, chassisOnly));
+  ASSERT_EQ(responder.warnings().size(), 4U);
+  EXPECT_THAT(responder.warnings()[0], ::testing::HasSubstr("not among the linked bodies"));
+  responder.addVehicle(car.chassis, car.parameters(), {.linkedBodies = car.wheels});
+  EXPECT_EQ(responder.warnings().size(), 4U);
 }
 
 }  // namespace

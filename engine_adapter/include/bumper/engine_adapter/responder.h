@@ -105,7 +105,8 @@ class Responder {
   [[nodiscard]] unsigned issues() const;
   [[nodiscard]] unsigned issues(VehicleId vehicle) const;
 
-  /// What set-up calls noticed that would eat a part of an impulse (damping, speed limits).
+  /// What set-up calls noticed that would falsify an impulse: damping, speed limits, jointed bodies
+  /// that are not linked.
   [[nodiscard]] std::span<const std::string> warnings() const;
 
   struct Implementation;  ///< in the library's own sources
