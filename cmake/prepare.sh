@@ -63,7 +63,7 @@ install_packages() {
     apt-get install -y -qq --no-install-recommends $missing >/dev/null
 }
 
-# A build directory belongs to the place it was made for.
+# configure_and_build [ARGUMENT of cmake --build]...
 configure_and_build() {
   say "Configuring and building ($preset)"
   (cd "$root" && cmake --preset "$preset" >"$root/build/configure-$preset.log" 2>&1) || {

@@ -144,6 +144,11 @@ Eigen::Vector3d startOf(const Order& order, const Scene& scene, dGeomID mesh, do
 
 Recording run(const Order& order, const Scene& scene) {
   World world(scene);
+  const YawPlaneCarDesign design;
+  YawPlaneCar car(world.world, world.space, design,
+                  startOf(order, scene, world.mesh, design.body.massCentreHeight),
+                  order.heading * degree, order.speed);
+  // After what it refers to, so that it is gone before.
   Responder responder(
       world.world, {.response = {.law = order.law == "energy" ? Law::energy : Law::restitution}});
   world.responder = &responder;
@@ -154,10 +159,6 @@ Recording run(const Order& order, const Scene& scene) {
               order.scene.filename().string().c_str(), scene.triangles.size(), report.walls,
               report.lowestFoot, report.highestTop);
 
-  const YawPlaneCarDesign design;
-  YawPlaneCar car(world.world, world.space, design,
-                  startOf(order, scene, world.mesh, design.body.massCentreHeight),
-                  order.heading * degree, order.speed);
   responder.addVehicle(car.body(), design.body, {.name = "car"});
   RaySuspension suspension(car, world.mesh, gravity);
   const AngleCurve steering = steeringOf(order.steering);

@@ -25,4 +25,9 @@ say "Fetching race tracks: a download of about 333 MB, of which a few MB are kep
 apt-cache show torcs-data >/dev/null 2>&1 || as_root apt-get update -qq || fail "no package list"
 apt-get download -qq -o APT::Sandbox::User=root torcs-data >/dev/null 2>&1 || fail "no download"
 dpkg-deb --fsys-tarfile torcs-data_*.deb | tar x "${wanted[@]}" || fail "no such track"
-cp -r usr/share/games/torcs/tracks/. "$tracks/"
+# Moved whole, so that an interrupted call leaves no half of a track.
+for track in "${wanted[@]}"; do
+  place=$tracks/${track#./usr/share/games/torcs/tracks/}
+  mkdir -p "$(dirname "$place")"
+  mv "$track" "$place"
+done

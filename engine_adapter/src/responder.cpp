@@ -82,14 +82,19 @@ OwnedPair ordered(const Responder::Implementation& responder, dGeomID vehicleGeo
 template <typename Source>
 BarrierId add(Responder::Implementation& responder, const Source& source,
               const BarrierOptions& options, std::string name) {
-  const ResponseSettings settings = options.response.value_or(responder.options.response);
-  validate(settings);
+  if (options.response) {
+    validate(*options.response);
+    if (options.response->method != responder.options.response.method) {
+      throw Error("BarrierOptions::response: all barriers of a responder follow the same method");
+    }
+  }
   if (name.empty()) name = "barrier " + std::to_string(responder.barriers.size());
   const bool exact = responder.options.contactSource == ContactSource::exact_cut;
   // Built whole before anything refers to it.
   auto barrier = std::make_unique<Barrier>(
       source, options, std::move(name),
-      exact ? BarrierMesh::Query::list_triangles : BarrierMesh::Query::make_contacts, settings);
+      exact ? BarrierMesh::Query::list_triangles : BarrierMesh::Query::make_contacts,
+      responder.options.response);
   responder.barrierOfGeom.emplace(barrier->mesh.geom(), barrier.get());
   responder.barriers.push_back(std::move(barrier));
   return {static_cast<int>(responder.barriers.size()) - 1};
@@ -127,6 +132,9 @@ BarrierId Responder::addBarrier(dGeomID trimesh, const BarrierOptions& options) 
     throw Error("addBarrier: the geom is of ODE class " + std::to_string(dGeomGetClass(trimesh)) +
                 ": only a trimesh can be a barrier");
   }
+  if (dGeomTriMeshGetTriMeshDataID(trimesh) == nullptr) {
+    throw Error("addBarrier: the trimesh has no data");
+  }
   if (dGeomGetBody(trimesh) != nullptr) {
     throw Error("addBarrier: the trimesh has a body: a barrier must stand still");
   }
@@ -155,6 +163,9 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
     if (bodies[i] == nullptr) throw Error("addVehicle: " + what + " is null");
     if (dBodyGetWorld(bodies[i]) != self.world) {
       throw Error("addVehicle: " + what + " belongs to another world");
+    }
+    if (dBodyIsKinematic(bodies[i]) != 0) {
+      throw Error("addVehicle: " + what + " is kinematic: no force moves it");
     }
     const auto end = bodies.begin() + static_cast<std::ptrdiff_t>(i);
     if (self.vehicleOfBody.contains(bodies[i]) ||
@@ -190,19 +201,23 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
     self.vehicleOfBody.emplace(body, vehicle.get());
   }
   self.vehicles.push_back(std::move(vehicle));
+  // So that step() need not allocate when the first vehicle hits the first wall.
+  self.events.reserve(self.vehicles.size() * CollisionStep::maxImpacts);
+  self.segments.reserve(512);
   return {id};
 }
 
 void Responder::removeBarrier(BarrierId barrier) {
   Barrier& removed = registered(implementation_->barriers, barrier.value, "barrier");
-  implementation_->events.clear();
+  for (const std::unique_ptr<Vehicle>& vehicle : implementation_->vehicles) {
+    if (vehicle != nullptr) std::erase(vehicle->brokenThrough, &removed);
+  }
   implementation_->barrierOfGeom.erase(removed.mesh.geom());
   implementation_->barriers[static_cast<std::size_t>(barrier.value)].reset();
 }
 
 void Responder::removeVehicle(VehicleId vehicle) {
   const Vehicle& removed = registered(implementation_->vehicles, vehicle.value, "vehicle");
-  implementation_->events.clear();
   for (dBodyID body : removed.bodies.all()) implementation_->vehicleOfBody.erase(body);
   implementation_->vehicles[static_cast<std::size_t>(vehicle.value)].reset();
 }
@@ -223,10 +238,12 @@ int Responder::keepUnclaimed(dGeomID a, dGeomID b, dContact* contacts, int count
   const VehicleState state = pair.vehicle->bodies.read();
   const auto isOurs = [&](const dContact& contact) {
     const int triangle = contact.geom.g1 == mesh.geom() ? contact.geom.side1 : contact.geom.side2;
-    const WallPart part = mesh.partOf(triangle);
-    if (part.kind == WallPart::Kind::none) return false;
     const Eigen::Vector3d place = toVector(contact.geom.pos);
     const WallQuery& query = pair.vehicle->query;
+    // ODE numbers no triangle where two trimeshes meet along their edges.
+    if (triangle < 0) return query.isAboveBottom(state, place);
+    const WallPart part = mesh.partOf(triangle);
+    if (part.kind == WallPart::Kind::none) return false;
     if (!query.inBand(state, place, part.foot, part.top)) return false;
     // A cap is the wall's for a vehicle that stands before the wall, and ground for the wheels of
     // one that drives up to its height.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -20,11 +21,15 @@ namespace bumper {
 struct Barrier {
   template <typename Source>
   Barrier(const Source& source, const BarrierOptions& options, std::string name,
-          BarrierMesh::Query query, ResponseSettings itsSettings)
-      : mesh(source, options, std::move(name), query), settings(std::move(itsSettings)) {}
+          BarrierMesh::Query query, const ResponseSettings& usual)
+      : mesh(source, options, std::move(name), query),
+        own(options.response),
+        settings(own ? &*own : &usual) {}
 
   BarrierMesh mesh;
-  ResponseSettings settings;
+  std::optional<ResponseSettings> own;
+  /// Its own or the responder's: barriers with the same settings form one wall where they meet.
+  const ResponseSettings* settings;
 };
 
 /// Learns what acts on a vehicle besides the forces that are known before a step, joints above all:
@@ -59,6 +64,7 @@ struct Vehicle {
   WallQuery query;
   double minUprightness;
   UnknownForces unknown;
+  std::vector<const Barrier*> brokenThrough;  // and not left yet
   unsigned issues = step_issue::none;
 
   /// False also where the rotation is not finite.
@@ -96,6 +102,8 @@ struct Responder::Implementation {
   [[nodiscard]] OwnedPair pairOf(dGeomID a, dGeomID b) const;
 
   void stepVehicle(Vehicle& vehicle, double h);
+  void appendSegments(Vehicle& vehicle, const VehicleState& state, double reach,
+                      const Barrier& barrier, int firstId);
   PlanarImpulse impulseOfCuts(Vehicle& vehicle, const VehicleState& state, double h);
   PlanarImpulse impulseOfContacts(Vehicle& vehicle, const VehicleState& state, double h);
   void report(const Vehicle& vehicle, const VehicleState& state, const Barrier& barrier, int wall,

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "responder_implementation.h"
@@ -54,7 +55,7 @@ void UnknownForces::expect(const VehicleState& known, const PlanarImpulse& impul
 void Responder::Implementation::report(const Vehicle& vehicle, const VehicleState& state,
                                        const Barrier& barrier, int wall, const Impact& impact,
                                        const ImpactResponse& response) {
-  if (response.approachSpeed <= barrier.settings.restSpeed) return;
+  if (response.approachSpeed <= barrier.settings->restSpeed) return;
   ImpactEvent event;
   event.time = time;
   event.vehicle = vehicle.name;
@@ -78,7 +79,8 @@ void Responder::Implementation::report(const Vehicle& vehicle, const VehicleStat
   event.yawRateAfter = response.after.yawRate;
   event.speedBefore = response.before.velocity.norm();
   event.speedAfter = response.after.velocity.norm();
-  event.velocityAfter = state.toWorld(response.after.velocity);
+  event.velocityAfter =
+      state.toWorld(response.after.velocity) + state.up().dot(state.velocity) * state.up();
   event.energyAsked = response.energyAsked;
   event.energyRatio = response.energyRatio;
   event.outcome = response.outcome;
@@ -86,15 +88,36 @@ void Responder::Implementation::report(const Vehicle& vehicle, const VehicleStat
   events.push_back(event);
 }
 
+// A barrier that the vehicle breaks through is ignored until the outline has left it.
+void Responder::Implementation::appendSegments(Vehicle& vehicle, const VehicleState& state,
+                                               double reach, const Barrier& barrier, int firstId) {
+  const std::size_t before = segments.size();
+  vehicle.query.append(barrier.mesh, state, reach, *barrier.settings, firstId, segments);
+  std::vector<const Barrier*>& broken = vehicle.brokenThrough;
+  const auto mark = std::find(broken.begin(), broken.end(), &barrier);
+  if (mark == broken.end()) return;
+  const auto first = segments.begin() + static_cast<std::ptrdiff_t>(before);
+  const bool inside = std::any_of(first, segments.end(), [&](const WallSegment& wall) {
+    return findOverlap(vehicle.query.outline(), Vector2::Zero(), 0.0, wall).has_value();
+  });
+  if (inside) {
+    segments.resize(before);
+  } else {
+    broken.erase(mark);
+  }
+}
+
 PlanarImpulse Responder::Implementation::impulseOfCuts(Vehicle& vehicle, const VehicleState& state,
                                                        double h) {
+  const PlanarMotion motion = motionOf(state, options.response.method, h);
+  const double speed = motion.velocity.norm() + std::abs(motion.yawRate) * vehicle.query.radius();
   segments.clear();
   firstIds.clear();
   int nextId = 0;
   for (const std::unique_ptr<Barrier>& barrier : barriers) {
     firstIds.push_back(nextId);
     if (barrier == nullptr) continue;
-    vehicle.query.append(barrier->mesh, state, barrier->settings, nextId, segments);
+    appendSegments(vehicle, state, speed * barrier->settings->penetrationTime, *barrier, nextId);
     nextId += static_cast<int>(barrier->mesh.walls().size());
   }
   if (segments.empty()) return {};
@@ -108,6 +131,7 @@ PlanarImpulse Responder::Implementation::impulseOfCuts(Vehicle& vehicle, const V
     while (firstIds[owner] > each.impact.wall || barriers[owner] == nullptr) --owner;
     report(vehicle, state, *barriers[owner], each.impact.wall - firstIds[owner], each.impact,
            each.response);
+    if (each.response.brokeThrough) vehicle.brokenThrough.push_back(barriers[owner].get());
   }
   return outcome.impulse;
 }
@@ -121,7 +145,7 @@ PlanarImpulse Responder::Implementation::impulseOfContacts(Vehicle& vehicle,
     const std::optional<Impact> impact = vehicle.query.meanOfContacts(barrier->mesh, state);
     if (!impact || -velocityAt(motion, impact->arm).dot(impact->normal) <= 0.0) continue;
     const ImpactResponse response =
-        respond(*impact, motion, state.mass, state.yawInertia, barrier->settings);
+        respond(*impact, motion, state.mass, state.yawInertia, *barrier->settings);
     report(vehicle, state, *barrier, impact->wall, *impact, response);
     add(sum, response.impulse);
     motion = response.after;
@@ -130,7 +154,10 @@ PlanarImpulse Responder::Implementation::impulseOfContacts(Vehicle& vehicle,
 }
 
 void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
-  vehicle.issues = step_issue::none;
+  if (vehicle.bodies.areAsleep()) {
+    vehicle.unknown.forget();
+    return;
+  }
   const VehicleState known = vehicle.bodies.read();
   if (!known.isFinite()) {
     vehicle.issues |= step_issue::not_finite;
@@ -150,15 +177,24 @@ void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
   vehicle.unknown.expect(known, impulse, h);
   if (impulse.linear.isZero(0.0) && impulse.angular == 0.0) return;
 
+  // The whole pulse lies in this step, because an impact is noticed when a step begins.
   ForcePulse pulse;
   pulse.add(impulse, 0.0, h);
-  vehicle.bodies.push(state, pulse.take(h));
+  const PlanarForce force = pulse.take(h);
+  if (!force.force.allFinite() || !std::isfinite(force.yawMoment)) {
+    vehicle.issues |= step_issue::not_finite;
+    return;
+  }
+  vehicle.bodies.push(state, force);
 }
 
 std::span<const ImpactEvent> Responder::step(double h) {
   Implementation& self = *implementation_;
   self.events.clear();
   self.issues = step_issue::none;
+  for (const std::unique_ptr<Vehicle>& vehicle : self.vehicles) {
+    if (vehicle != nullptr) vehicle->issues = step_issue::none;
+  }
   if (!std::isfinite(h) || h < 0.0) {
     self.issues = step_issue::invalid_step;
     return {};

@@ -64,6 +64,11 @@ VehicleState VehicleBodies::read() const {
   return state;
 }
 
+bool VehicleBodies::areAsleep() const {
+  return std::none_of(bodies_.begin(), bodies_.end(),
+                      [](dBodyID body) { return dBodyIsEnabled(body) != 0; });
+}
+
 void VehicleBodies::push(const VehicleState& state, const PlanarForce& force) const {
   const Eigen::Vector3d acceleration = state.toWorld(force.force) / state.mass;
   const Eigen::Vector3d turning = force.yawMoment / state.yawInertia * state.up();
@@ -72,7 +77,7 @@ void VehicleBodies::push(const VehicleState& state, const PlanarForce& force) co
     const Eigen::Vector3d share = massOf(body) * (acceleration + turning.cross(arm));
     const Eigen::Vector3d torque = inertiaOf(body) * turning;
     // ODE keeps the force of a sleeping body until it wakes by other means.
-    dBodyEnable(body);
+    if (dBodyIsEnabled(body) == 0) dBodyEnable(body);
     dBodyAddForce(body, share.x(), share.y(), share.z());
     dBodyAddTorque(body, torque.x(), torque.y(), torque.z());
   }

@@ -40,6 +40,8 @@ class VehicleBodies {
   [[nodiscard]] dBodyID chassis() const { return bodies_.front(); }
   [[nodiscard]] std::span<const dBodyID> all() const { return bodies_; }
   [[nodiscard]] VehicleState read() const;
+  /// Whether ODE has put all of them to sleep.
+  [[nodiscard]] bool areAsleep() const;
 
   /// Adds forces and torques that give every body its share of the force at the common mass centre
   /// and of the moment about the chassis' z axis, as parts of one rigid body: no roll, no pitch, no

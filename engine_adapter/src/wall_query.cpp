@@ -23,21 +23,31 @@ struct Range {
   }
 };
 
-// The extent along `tangent` of the part of a triangle between two heights.
-Range extentBetween(const std::array<Eigen::Vector3d, 3>& corners, const Vector2& tangent,
-                    double low, double high) {
-  Range extent;
+// The extents along the tangent and along the normal of the part of a triangle between two heights.
+struct Extents {
+  Range along;
+  Range out;
+};
+
+Extents extentsBetween(const std::array<Eigen::Vector3d, 3>& corners, const Vector2& normal,
+                       double low, double high) {
+  const Vector2 tangent = turnedLeft(normal);
+  Extents extents;
+  const auto include = [&](const Eigen::Vector3d& point) {
+    extents.along.include(tangent.dot(point.head<2>()));
+    extents.out.include(normal.dot(point.head<2>()));
+  };
   for (std::size_t k = 0; k < 3; ++k) {
     const Eigen::Vector3d& a = corners[k];
     const Eigen::Vector3d& b = corners[(k + 1) % 3];
-    if (low <= a.z() && a.z() <= high) extent.include(tangent.dot(a.head<2>()));
+    if (low <= a.z() && a.z() <= high) include(a);
     for (const double height : {low, high}) {
       if ((a.z() < height) == (b.z() < height)) continue;
       const double share = (height - a.z()) / (b.z() - a.z());
-      extent.include(tangent.dot((a + share * (b - a)).head<2>()));
+      include(a + share * (b - a));
     }
   }
-  return extent;
+  return extents;
 }
 
 }  // namespace
@@ -54,12 +64,14 @@ std::optional<WallSegment> cutWall(const Wall& wall, const VehicleState& state, 
 
   WallSegment segment;
   segment.normal = normal.head<2>() / planar;
+  const Extents extents = extentsBetween(corners, segment.normal, low, high);
+  if (!(extents.along.low < extents.along.high)) return std::nullopt;
+  // The mass centre is the frame's origin.
+  const double offset = extents.out.high <= 0.0 ? extents.out.high : extents.out.low;
+  const Vector2 foot = offset * segment.normal;
   const Vector2 tangent = turnedLeft(segment.normal);
-  const Range extent = extentBetween(corners, tangent, low, high);
-  if (!(extent.low < extent.high)) return std::nullopt;
-  const Vector2 foot = normal.dot(corners[0]) / planar * segment.normal;
-  segment.start = foot + extent.low * tangent;
-  segment.end = foot + extent.high * tangent;
+  segment.start = foot + extents.along.low * tangent;
+  segment.end = foot + extents.along.high * tangent;
   return segment;
 }
 
@@ -73,23 +85,24 @@ WallQuery::WallQuery(const VehicleParameters& parameters, const Band& band)
 
 WallQuery::~WallQuery() { dGeomDestroy(box_); }
 
-void WallQuery::placeBox(const VehicleState& state, double margin) {
+void WallQuery::placeBox(const VehicleState& state, double reach, double margin) {
   const Eigen::Vector3d middle(0.5 * (outline_.front - outline_.rear), 0.0, 0.5 * (low_ + high_));
   const Eigen::Vector3d place = state.massCentre + state.axes * middle;
   dMatrix3 rotation = {state.axes(0, 0), state.axes(0, 1), state.axes(0, 2), 0.0,
                        state.axes(1, 0), state.axes(1, 1), state.axes(1, 2), 0.0,
                        state.axes(2, 0), state.axes(2, 1), state.axes(2, 2), 0.0};
-  dGeomBoxSetLengths(box_, outline_.front + outline_.rear + 2.0 * margin,
-                     2.0 * outline_.halfWidth + 2.0 * margin, high_ - low_ + 2.0 * margin);
+  const double around = reach + margin;
+  dGeomBoxSetLengths(box_, outline_.front + outline_.rear + 2.0 * around,
+                     2.0 * outline_.halfWidth + 2.0 * around, high_ - low_ + 2.0 * margin);
   dGeomSetPosition(box_, place.x(), place.y(), place.z());
   dGeomSetRotation(box_, rotation);
 }
 
-void WallQuery::append(const BarrierMesh& barrier, const VehicleState& state,
+void WallQuery::append(const BarrierMesh& barrier, const VehicleState& state, double reach,
                        const ResponseSettings& settings, int firstId,
                        std::vector<WallSegment>& segments) {
-  if (!barrier.reaches(state.massCentre, radius_)) return;
-  placeBox(state, barrier.margin());
+  if (!barrier.reaches(state.massCentre, radius_ + reach)) return;
+  placeBox(state, reach, barrier.margin());
   barrier.list(box_, near_);
   for (const int index : near_) {
     std::optional<WallSegment> segment =
@@ -106,7 +119,7 @@ std::optional<Impact> WallQuery::meanOfContacts(const BarrierMesh& barrier,
   if (!barrier.reaches(state.massCentre, radius_)) return std::nullopt;
   constexpr int capacity = 64;
   std::array<dContactGeom, capacity> contacts;
-  placeBox(state, 0.0);
+  placeBox(state, 0.0, 0.0);
   const int count = barrier.contacts(box_, contacts.data(), capacity);
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();

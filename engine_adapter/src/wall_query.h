@@ -24,10 +24,15 @@ class WallQuery {
   WallQuery(WallQuery&&) = delete;
   WallQuery& operator=(WallQuery&&) = delete;
 
-  /// Appends the pieces of the barrier's walls at the outline, cut to the band and laid into the
-  /// yaw plane. A segment's id is `firstId` plus the wall's index in the barrier.
-  void append(const BarrierMesh& barrier, const VehicleState& state,
+  /// Appends the pieces of the barrier's walls at the outline enlarged by `reach` on every side, m,
+  /// cut to the band and laid into the yaw plane. A segment's id is `firstId` plus the wall's index
+  /// in the barrier.
+  void append(const BarrierMesh& barrier, const VehicleState& state, double reach,
               const ResponseSettings& settings, int firstId, std::vector<WallSegment>& segments);
+
+  [[nodiscard]] const Outline& outline() const { return outline_; }
+  /// Of a sphere around the mass centre that holds the outline over the band, m.
+  [[nodiscard]] double radius() const { return radius_; }
 
   /// The impact that ODE's own contacts make of the situation: their depth-weighted mean.
   std::optional<Impact> meanOfContacts(const BarrierMesh& barrier, const VehicleState& state);
@@ -44,18 +49,19 @@ class WallQuery {
                                double lowestTop) const;
 
  private:
-  void placeBox(const VehicleState& state, double margin);
+  void placeBox(const VehicleState& state, double reach, double margin);
 
   Outline outline_;
   double low_;  // the band in the vehicle's frame
   double high_;
-  double radius_;  // around the mass centre: the outline over the band
+  double radius_;
   dGeomID box_;
   std::vector<int> near_;
 };
 
 /// The part of a wall within [low, high] of a vehicle's z axis, laid into its yaw plane; nothing if
-/// the wall lies outside. The line is where the wall's plane cuts the yaw plane.
+/// the wall lies outside. Of a wall that leans the line is the foremost, as seen from the mass
+/// centre.
 std::optional<WallSegment> cutWall(const Wall& wall, const VehicleState& state, double low,
                                    double high);
 

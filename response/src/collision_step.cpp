@@ -14,36 +14,20 @@ constexpr double mergeDistance = 1e-3;
 constexpr double mergeOffset = 1e-4;
 constexpr double mergeSine = 1e-4;
 
+// Walls whose normals differ by less than this sine, 5°, and whose ends meet are hit as one.
+constexpr double chainSine = 0.087;
+
 // A contact that approaches more slowly than this, m/s, is at rest to rounding.
 constexpr double restTolerance = 1e-9;
 
 // From this many impacts in one step on, none rebounds, so that they come to an end.
 constexpr std::size_t plasticAfter = 8;
 
-// A wall's line seen from the vehicle: the side of its normal is the vehicle's.
-struct Line {
-  Vector2 normal;
-  Vector2 tangent;
-  double offset;
-  double start;
-  double end;
-};
-
-Line lineOf(const WallSegment& wall, const Vector2& centre) {
-  const bool behind = (centre - wall.start).dot(wall.normal) < 0.0;
-  const Vector2 normal = behind ? Vector2(-wall.normal) : wall.normal;
-  const Vector2 tangent = turnedLeft(normal);
-  const auto [start, end] = std::minmax({tangent.dot(wall.start), tangent.dot(wall.end)});
-  return {normal, tangent, normal.dot(wall.start), start, end};
-}
-
 WallSegment oriented(const WallSegment& wall, const Vector2& centre) {
   WallSegment result = wall;
-  const Line line = lineOf(wall, centre);
-  result.normal = line.normal;
-  if (line.tangent.dot(wall.start) > line.tangent.dot(wall.end)) {
-    std::swap(result.start, result.end);
-  }
+  result.normal = lineOf(wall, centre).normal;
+  const Vector2 tangent = turnedLeft(result.normal);
+  if (tangent.dot(wall.start) > tangent.dot(wall.end)) std::swap(result.start, result.end);
   return result;
 }
 
@@ -75,43 +59,6 @@ int wallAt(std::span<const WallSegment> walls, const Overlap& overlap, const Vec
     }
   }
   return nearest;
-}
-
-double approachSpeed(const PlanarMotion& motion, const Vector2& arm, const Vector2& normal) {
-  return -velocityAt(motion, arm).dot(normal);
-}
-
-// A point of the outline and how fast it goes into the wall, m/s.
-struct Approach {
-  ContactPoint contact;
-  double speed = 0.0;
-};
-
-Approach approachAt(const Outline& outline, const PlanarMotion& motion, const Overlap& overlap,
-                    double penetration) {
-  const ContactPoint contact =
-      contactPoint(outline, motion.position, motion.yaw, overlap, penetration);
-  return {contact, approachSpeed(motion, contact.arm, overlap.normal)};
-}
-
-// Of the point of first touch and the corners behind the wall: the first that approaches if it
-// does, else the fastest corner.
-Approach touchingApproach(const Outline& outline, const PlanarMotion& motion,
-                          const Overlap& overlap) {
-  Approach best = approachAt(outline, motion, overlap, 0.0);
-  if (best.speed > restTolerance) return best;
-  const ContactPoints corners = cornersBehind(outline, motion.position, motion.yaw, overlap);
-  for (std::size_t k = 0; k < corners.count; ++k) {
-    const double speed = approachSpeed(motion, corners.points[k].arm, overlap.normal);
-    if (speed > best.speed) best = {corners.points[k], speed};
-  }
-  return best;
-}
-
-// How long ago the wall was touched, s; infinite for one that is not approached.
-double sinceTouch(const Outline& outline, const PlanarMotion& motion, const Overlap& overlap) {
-  const double speed = touchingApproach(outline, motion, overlap).speed;
-  return speed > restTolerance ? overlap.depth / speed : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -146,17 +93,97 @@ void CollisionStep::mergeWalls(std::span<const WallSegment> walls, const Vector2
   merged_.resize(kept);
 }
 
-void CollisionStep::findTouched(const Outline& outline, const PlanarMotion& motion) {
-  touched_.clear();
-  for (const WallSegment& wall : merged_) {
-    const std::optional<Overlap> overlap = findOverlap(outline, motion.position, motion.yaw, wall);
-    if (overlap) touched_.push_back({.overlap = *overlap, .settings = wall.settings});
+void CollisionStep::findTouched() {
+  walls_.clear();
+  for (const WallSegment& merged : merged_) {
+    Wall wall{.overlap = lineOf(merged, motion_.position),
+              .settings = merged.settings,
+              .startPoint = merged.start,
+              .endPoint = merged.end,
+              .contact = {}};
+    const std::optional<Overlap> overlap =
+        findOverlap(outline_, motion_.position, motion_.yaw, merged);
+    if (overlap) {
+      wall.overlap = *overlap;
+      wall.touched = true;
+    }
+    walls_.push_back(wall);
   }
+}
+
+CollisionStep::Approach CollisionStep::approach(const ContactPoint& contact,
+                                                const Vector2& normal) const {
+  return {contact, normal, -velocityAt(motion_, contact.arm).dot(normal)};
+}
+
+// Of the point of first touch and the corners behind the wall: the first if it approaches, else the
+// fastest corner.
+CollisionStep::Approach CollisionStep::touching(const Wall& wall) const {
+  const Overlap& overlap = wall.overlap;
+  Approach best =
+      approach(contactPoint(outline_, motion_.position, motion_.yaw, overlap, 0.0), overlap.normal);
+  if (best.speed > restTolerance) return best;
+  const ContactPoints corners = cornersBehind(outline_, motion_.position, motion_.yaw, overlap);
+  for (std::size_t k = 0; k < corners.count; ++k) {
+    const Approach corner = approach(corners.points[k], overlap.normal);
+    if (corner.speed > best.speed) best = corner;
+  }
+  return best;
+}
+
+// How long ago the wall was touched, s; infinite for one that is not approached.
+double CollisionStep::sinceTouch(const Wall& wall) const {
+  const double speed = touching(wall).speed;
+  return speed > restTolerance ? wall.overlap.depth / speed
+                               : std::numeric_limits<double>::infinity();
+}
+
+// The middle of the line of interference with a wall and the walls that go on from its ends with a
+// slight bend, each counting by its length and the less the more it is bent. A wall that is not
+// quite flat is hit like a flat one.
+CollisionStep::Approach CollisionStep::middleOfChain(const Wall& struck, double penetration) const {
+  const Overlap& first = struck.overlap;
+  const Vector2 moved =
+      motion_.position + moveTo(first, motion_.position, penetration) * first.normal;
+  ContactPoint sum{.point = Vector2::Zero(), .arm = Vector2::Zero()};
+  Vector2 normal = Vector2::Zero();
+  double total = 0.0;
+  const auto include = [&](const Wall& wall) {
+    const Interference inside = interference(outline_, moved, motion_.yaw, wall.overlap);
+    const double bend = std::abs(cross(first.normal, wall.overlap.normal));
+    const double weight = inside.length * std::max(0.0, 1.0 - bend / chainSine);
+    if (inside.empty || weight == 0.0) return;
+    sum.point += weight * inside.middle.point;
+    sum.arm += weight * inside.middle.arm;
+    normal += weight * wall.overlap.normal;
+    total += weight;
+  };
+  include(struck);
+  for (const bool forward : {true, false}) {
+    const Wall* last = &struck;
+    for (std::size_t length = 1; length < walls_.size(); ++length) {
+      const Vector2 joint = forward ? last->endPoint : last->startPoint;
+      const auto next = std::find_if(walls_.begin(), walls_.end(), [&](const Wall& wall) {
+        return &wall != last && wall.settings == struck.settings &&
+               (joint - (forward ? wall.startPoint : wall.endPoint)).norm() <= mergeDistance &&
+               first.normal.dot(wall.overlap.normal) > 0.0 &&
+               std::abs(cross(first.normal, wall.overlap.normal)) < chainSine;
+      });
+      if (next == walls_.end()) break;
+      include(*next);
+      last = &*next;
+    }
+  }
+  if (total == 0.0) {
+    return approach(contactPoint(outline_, motion_.position, motion_.yaw, first, penetration),
+                    first.normal);
+  }
+  return approach({.point = sum.point / total, .arm = sum.arm / total}, normal.normalized());
 }
 
 // What lies behind a wall that the outline is already in cannot be hit: its back, the ends of a
 // slab, a second skin.
-void CollisionStep::dropHidden(const Outline& outline, const PlanarMotion& motion) {
+void CollisionStep::dropHidden() {
   constexpr double tolerance = 1e-6;  // m
   const auto behind = [](const Overlap& wall, const Overlap& front) {
     const Vector2 frontTangent = turnedLeft(front.normal);
@@ -168,54 +195,54 @@ void CollisionStep::dropHidden(const Outline& outline, const PlanarMotion& motio
     };
     return hiddenAt(wall.a) && hiddenAt(wall.b);
   };
-  for (Touched& wall : touched_) {
-    for (const Touched& other : touched_) {
-      if (&wall == &other || !behind(wall.overlap, other.overlap)) continue;
-      if (behind(other.overlap, wall.overlap)) {
-        // Each behind the other: a convex corner. The vehicle came in over the one touched last.
-        const double own = sinceTouch(outline, motion, wall.overlap);
-        const double others = sinceTouch(outline, motion, other.overlap);
-        if (own < others || (own == others && &wall < &other)) continue;
-      }
-      wall.hidden = true;
-    }
+  const auto isHidden = [&](const Wall& wall) {
+    return std::any_of(walls_.begin(), walls_.end(), [&](const Wall& other) {
+      if (&wall == &other || !other.touched || !behind(wall.overlap, other.overlap)) return false;
+      if (!behind(other.overlap, wall.overlap)) return true;
+      // Each behind the other: a convex corner. The vehicle came in over the one touched last.
+      const double own = sinceTouch(wall);
+      const double others = sinceTouch(other);
+      return own > others || (own == others && &wall > &other);
+    });
+  };
+  // Found first, dropped after: a wall hides others even if it is hidden itself.
+  for (Wall& wall : walls_) wall.passed = wall.touched && isHidden(wall);
+  for (Wall& wall : walls_) {
+    if (wall.passed) wall.touched = false;
+    wall.passed = false;
   }
-  std::erase_if(touched_, [](const Touched& wall) { return wall.hidden; });
 }
 
-// Walls that have not been struck yet come first, the one touched the longest time ago before the
-// others; then any contact point of a struck wall that still approaches.
-CollisionStep::Next CollisionStep::nextImpact(const Outline& outline, const PlanarMotion& motion) {
+// Of the walls that have had no impulse yet the one that was touched the longest time ago.
+CollisionStep::Next CollisionStep::firstNewWall() {
   Next next;
-  bool nextIsNew = false;
-  for (Touched& wall : touched_) {
-    const Overlap& overlap = wall.overlap;
-    if (wall.settings->method == Method::paper) {
-      const Approach middle = approachAt(outline, motion, overlap, overlap.depth);
-      if (wall.struck || middle.speed <= restTolerance) continue;
-      const double urgency = overlap.depth / middle.speed;
-      if (nextIsNew && urgency <= next.urgency) continue;
-      next = {.wall = &wall, .contact = middle.contact, .urgency = urgency};
-      nextIsNew = true;
-      continue;
-    }
+  double longest = -1.0;
+  for (Wall& wall : walls_) {
+    if (!wall.touched || wall.struck) continue;
+    const bool asPaper = wall.settings->method == Method::paper;
+    // The paper's point is the middle of the overlap as it is.
+    const Approach first = asPaper ? approach(contactPoint(outline_, motion_.position, motion_.yaw,
+                                                           wall.overlap, wall.overlap.depth),
+                                              wall.overlap.normal)
+                                   : touching(wall);
+    if (first.speed <= restTolerance || wall.overlap.depth / first.speed <= longest) continue;
+    longest = wall.overlap.depth / first.speed;
+    wall.contact =
+        asPaper ? first : middleOfChain(wall, first.speed * wall.settings->penetrationTime);
+    next = {.wall = &wall, .at = wall.contact.speed > restTolerance ? wall.contact : first};
+  }
+  return next;
+}
 
-    const Approach touch = touchingApproach(outline, motion, overlap);
-    if (!wall.struck) {
-      if (touch.speed <= restTolerance) continue;
-      const double urgency = overlap.depth / touch.speed;
-      if (nextIsNew && urgency <= next.urgency) continue;
-      wall.penetration = touch.speed * wall.settings->penetrationTime;
-      const Approach middle = approachAt(outline, motion, overlap, wall.penetration);
-      next = {.wall = &wall,
-              .contact = middle.speed > restTolerance ? middle.contact : touch.contact,
-              .urgency = urgency};
-      nextIsNew = true;
-    } else if (!nextIsNew) {
-      const Approach middle = approachAt(outline, motion, overlap, wall.penetration);
-      const Approach& faster = middle.speed > touch.speed ? middle : touch;
-      if (faster.speed <= restTolerance || faster.speed <= next.urgency) continue;
-      next = {.wall = &wall, .contact = faster.contact, .urgency = faster.speed};
+// Of the walls that have had their impulse the one that some point still approaches fastest.
+CollisionStep::Next CollisionStep::fastestStruckWall() {
+  Next next;
+  next.at.speed = restTolerance;
+  for (Wall& wall : walls_) {
+    if (!wall.struck || wall.passed || wall.settings->method == Method::paper) continue;
+    for (const Approach& point :
+         {touching(wall), approach(wall.contact.contact, wall.contact.normal)}) {
+      if (point.speed > next.at.speed) next = {.wall = &wall, .at = point};
     }
   }
   return next;
@@ -223,40 +250,46 @@ CollisionStep::Next CollisionStep::nextImpact(const Outline& outline, const Plan
 
 StepOutcome CollisionStep::resolve(const VehicleParameters& vehicle, const PlanarMotion& motion,
                                    std::span<const WallSegment> walls) {
-  const Outline outline(vehicle);
+  outline_ = Outline(vehicle);
+  motion_ = motion;
   impacts_.clear();
   StepOutcome outcome;
-  outcome.after = motion;
 
-  mergeWalls(walls, motion.position);
-  findTouched(outline, motion);
-  dropHidden(outline, motion);
+  mergeWalls(walls, motion_.position);
+  findTouched();
+  dropHidden();
 
   while (true) {
-    const Next next = nextImpact(outline, outcome.after);
+    Next next = firstNewWall();
+    if (next.wall == nullptr) next = fastestStruckWall();
     if (next.wall == nullptr) break;
     if (impacts_.size() == maxImpacts) {
       outcome.settled = false;
       break;
     }
-    next.wall->struck = true;
-    const Overlap& overlap = next.wall->overlap;
-    const Impact impact{.wall = wallAt(walls, overlap, next.contact.point),
-                        .point = next.contact.point,
-                        .normal = overlap.normal,
-                        .arm = next.contact.arm,
-                        .depth = overlap.depth};
+    const ResponseSettings& settings = *next.wall->settings;
+    const Impact impact{.wall = wallAt(walls, next.wall->overlap, next.at.contact.point),
+                        .point = next.at.contact.point,
+                        .normal = next.at.normal,
+                        .arm = next.at.contact.arm,
+                        .depth = next.wall->overlap.depth};
     const double rebound = impacts_.size() < plasticAfter ? 1.0 : 0.0;
-    const ImpactResponse response = respond(impact, outcome.after, vehicle.mass, vehicle.yawInertia,
-                                            *next.wall->settings, rebound);
+    const ImpactResponse response =
+        respond(impact, motion_, vehicle.mass, vehicle.yawInertia, settings, rebound);
     impacts_.push_back({impact, response});
     outcome.impulse.linear += response.impulse.linear;
     outcome.impulse.angular += response.impulse.angular;
-    outcome.after = response.after;
-    // The paper answers one impact in a step.
-    if (next.wall->settings->method == Method::paper) break;
+    motion_ = response.after;
+
+    next.wall->struck = true;
+    next.wall->passed = response.brokeThrough;
+    if (settings.method == Method::paper) {
+      // The paper answers one impact in a step.
+      for (Wall& wall : walls_) wall.struck |= wall.settings->method == Method::paper;
+    }
   }
   outcome.impacts = impacts_;
+  outcome.after = motion_;
   return outcome;
 }
 

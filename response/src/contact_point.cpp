@@ -88,16 +88,19 @@ std::array<Vector2, 4> Outline::corners() const {
           Vector2(front, -halfWidth)};
 }
 
+Overlap lineOf(const WallSegment& wall, const Vector2& position) {
+  Overlap line;
+  const bool behind = (position - wall.start).dot(wall.normal) < 0.0;
+  line.normal = behind ? Vector2(-wall.normal) : wall.normal;
+  line.offset = line.normal.dot(wall.start);
+  const Vector2 tangent = turnedLeft(line.normal);
+  std::tie(line.start, line.end) = std::minmax({tangent.dot(wall.start), tangent.dot(wall.end)});
+  return line;
+}
+
 std::optional<Overlap> findOverlap(const Outline& outline, const Vector2& position, double yaw,
                                    const WallSegment& wall) {
-  Overlap overlap;
-  overlap.normal =
-      (position - wall.start).dot(wall.normal) < 0.0 ? Vector2(-wall.normal) : wall.normal;
-  overlap.offset = overlap.normal.dot(wall.start);
-  const Vector2 tangent = turnedLeft(overlap.normal);
-  std::tie(overlap.start, overlap.end) =
-      std::minmax({tangent.dot(wall.start), tangent.dot(wall.end)});
-
+  Overlap overlap = lineOf(wall, position);
   const WallCorners corners = inWallAxes(outline, position, yaw, overlap.normal, overlap.offset);
   Interval cut = atDepth(corners, 0.0);
   cut.limit(overlap.start, overlap.end);
@@ -112,21 +115,33 @@ std::optional<Overlap> findOverlap(const Outline& outline, const Vector2& positi
   return overlap;
 }
 
+double moveTo(const Overlap& overlap, const Vector2& position, double penetration) {
+  const double centreDepth = overlap.offset - overlap.normal.dot(position);
+  const double most = std::max(overlap.depth - centreDepth, touchTolerance);
+  return overlap.depth - std::clamp(penetration, touchTolerance, most);
+}
+
+Interference interference(const Outline& outline, const Vector2& position, double yaw,
+                          const Overlap& overlap) {
+  Interval inside =
+      atDepth(inWallAxes(outline, position, yaw, overlap.normal, overlap.offset), 0.0);
+  inside.limit(overlap.start, overlap.end);
+  if (inside.empty()) return {};
+  const Vector2 point =
+      inside.middle() * turnedLeft(overlap.normal) + overlap.offset * overlap.normal;
+  return {.empty = false,
+          .length = inside.high - inside.low,
+          .middle = {.point = point, .arm = point - position}};
+}
+
 ContactPoint contactPoint(const Outline& outline, const Vector2& position, double yaw,
                           const Overlap& overlap, double penetration) {
-  const WallCorners corners = inWallAxes(outline, position, yaw, overlap.normal, overlap.offset);
-  const double centreDepth = overlap.offset - overlap.normal.dot(position);
-  const double depth =
-      overlap.depth - std::clamp(penetration, touchTolerance,
-                                 std::max(overlap.depth - centreDepth, touchTolerance));
-  Interval inside = atDepth(corners, depth);
-  inside.limit(overlap.start, overlap.end);
-  const double along = inside.empty() ? overlap.deepest : inside.middle();
-
-  const Vector2 tangent = turnedLeft(overlap.normal);
-  const Vector2 onWall = along * tangent + overlap.offset * overlap.normal;
-  // The body's point that would lie on the wall's line at that penetration.
-  return {.point = onWall, .arm = onWall - depth * overlap.normal - position};
+  const Vector2 moved = position + moveTo(overlap, position, penetration) * overlap.normal;
+  const Interference inside = interference(outline, moved, yaw, overlap);
+  if (!inside.empty) return inside.middle;
+  const Vector2 point =
+      overlap.deepest * turnedLeft(overlap.normal) + overlap.offset * overlap.normal;
+  return {.point = point, .arm = point - moved};
 }
 
 ContactPoints cornersBehind(const Outline& outline, const Vector2& position, double yaw,

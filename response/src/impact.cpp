@@ -66,6 +66,9 @@ ImpactResponse respond(const Impact& impact, const PlanarMotion& motion, double 
     response.contact = solution.contact;
     response.outcome = solution.outcome;
     response.restitution = solution.contact.restitution;
+    response.brokeThrough = settings.energyRoot == EnergyRoot::break_through &&
+                            solution.outcome != EnergyOutcome::no_break_through &&
+                            solution.contact.velocityAfter.normal < 0.0;
   } else {
     response.energyAsked = std::numeric_limits<double>::quiet_NaN();
     response.restitution = fade * settings.restitution(angle);

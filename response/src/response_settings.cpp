@@ -36,6 +36,12 @@ void validate(const ResponseSettings& settings) {
   requireCurve(settings.restitution, 1.0, "restitution");
   requireCurve(settings.friction,
                settings.frictionKind == Friction::Kind::coulomb ? unbounded : 1.0, "friction");
+  if (settings.frictionKind == Friction::Kind::fraction_of_critical &&
+      (settings.law == Law::energy || settings.method == Method::paper)) {
+    throw Error(
+        "ResponseSettings::frictionKind is fraction_of_critical: only the restitution law of "
+        "Method::bumper knows it");
+  }
   requireCurve(settings.energyRemaining, 1.0, "energyRemaining");
   requireRange(settings.maxRestitution, 0.0, 1.0, "maxRestitution", "");
   requireRange(settings.penetrationTime, 0.0, unbounded, "penetrationTime", " s");

@@ -110,6 +110,29 @@ TEST(BadInput, Barriers) {
   responder.addBarrier(mesh.geom);
 }
 
+TEST(BadInput, WhatNoForceMoves) {
+  OdeWorld ode;
+  Responder responder(ode.world);
+  BoxCar car(ode.world);
+  dBodySetKinematic(car.body);
+  expectError([&] { responder.addVehicle(car.body, car.parameters); }, "kinematic");
+  const dGeomID empty = dCreateTriMesh(ode.space, nullptr, nullptr, nullptr, nullptr);
+  expectError([&] { responder.addBarrier(empty); }, "no data");
+  dGeomDestroy(empty);
+}
+
+TEST(BadInput, BarriersOfTwoMethods) {
+  OdeWorld ode;
+  Responder responder(ode.world);
+  ResponseSettings paper;
+  paper.method = Method::paper;
+  expectError(
+      [&] {
+        responder.addBarrier(straightWall({0, 0}, {10, 0}, 1.0), {.response = paper});
+      },
+      "same method");
+}
+
 TEST(BadInput, AStateThatIsNotFiniteIsLeftAlone) {
   OdeWorld ode;
   Responder responder(ode.world);

@@ -162,17 +162,23 @@ TEST(ForceDelivery, ATorqueAboutTheWorldsAxisWouldRollIt) {
   EXPECT_GT(std::abs(rates.x()), 0.1);
 }
 
-TEST(ForceDelivery, ASleepingCarIsWoken) {
+TEST(ForceDelivery, ASleepingPartIsWokenAndASleepingCarIsNot) {
   OdeWorld ode;
   Responder responder(ode.world);
   responder.addBarrier(straightWall({-30.0, 0.0}, {30.0, 0.0}, 1.0));
-  BoxCar car(ode.world);
-  responder.addVehicle(car.body, car.parameters);
-  car.place({0.0, 0.85, 0.55}, Eigen::Matrix3d::Identity());
-  car.move({0.0, -3.0, 0.0}, Eigen::Vector3d::Zero());
-  dBodyDisable(car.body);
+  Hinge2Car car(ode.world, nullptr, {0.0, 0.87}, 0.0, 0.0, 0.0);
+  responder.addVehicle(car.chassis, car.parameters(), {.linkedBodies = car.wheels});
+  dBodySetLinearVel(car.chassis, 0.0, -3.0, 0.0);
+  for (const dBodyID wheel : car.wheels) dBodySetLinearVel(wheel, 0.0, -3.0, 0.0);
+
+  dBodyDisable(car.chassis);
+  for (const dBodyID wheel : car.wheels) dBodyDisable(wheel);
+  EXPECT_TRUE(responder.step(h).empty());
+  EXPECT_EQ(dBodyIsEnabled(car.chassis), 0);
+
+  dBodyEnable(car.wheels[0]);
   ASSERT_FALSE(responder.step(h).empty());
-  EXPECT_NE(dBodyIsEnabled(car.body), 0);
+  EXPECT_NE(dBodyIsEnabled(car.chassis), 0);
   dWorldQuickStep(ode.world, h);
   EXPECT_GT(car.velocity().y(), 0.0);
 }

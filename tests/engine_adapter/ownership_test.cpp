@@ -307,6 +307,34 @@ TEST(Ownership, ACarOnItsRoofIsHeldByOrdinaryContacts) {
   EXPECT_GT(place[2], 0.25);  // the ground carries it
 }
 
+// Between two trimeshes ODE makes contacts without a triangle's number.
+TEST(Ownership, AChassisThatIsATrimesh) {
+  for (const bool chassisFirst : {true, false}) {
+    OdeWorld ode;
+    const OdeMesh mesh(ode.space, roadWithWall(0.0, 1.0, 2));
+    Responder responder(ode.world);
+    responder.addBarrier(mesh.geom);
+    BoxCar car(ode.world);
+    Scene shape;
+    shape.meshes.push_back({.name = "shape", .material = "", .colour = {0.5F, 0.5F, 0.5F}});
+    for (const double side : {-0.9, 0.9}) {
+      addQuad(shape, 0, {-2.5, side, -0.2}, {2.1, side, -0.2}, {2.1, side, 0.4}, {-2.5, side, 0.4});
+    }
+    addQuad(shape, 0, {-2.5, -0.9, -0.2}, {2.1, -0.9, -0.2}, {2.1, 0.9, -0.2}, {-2.5, 0.9, -0.2});
+    const OdeMesh body(nullptr, shape);
+    dGeomSetBody(body.geom, car.body);
+    responder.addVehicle(car.body, car.parameters);
+    car.place({0.3, 0.85, 0.55},
+              Eigen::AngleAxisd(0.03, Eigen::Vector3d::UnitZ()).toRotationMatrix());
+    const dGeomID a = chassisFirst ? body.geom : mesh.geom;
+    const dGeomID b = chassisFirst ? mesh.geom : body.geom;
+    dContact contacts[64] = {};
+    const int found = dCollide(a, b, 64, &contacts[0].geom, sizeof(dContact));
+    EXPECT_GT(found, 0);
+    EXPECT_EQ(responder.keepUnclaimed(a, b, contacts, found), 0);
+  }
+}
+
 // The wheels are the vehicle's too: their contacts with walls are not ODE's.
 TEST(Ownership, WheelsBelongToTheVehicle) {
   OdeWorld ode;

@@ -89,12 +89,16 @@ TEST(ResponseSettings, EveryBadValueIsNamed) {
   EXPECT_THAT(with([](auto& s) { s.penetrationTime = -1e-6; }), HasSubstr("penetrationTime"));
   EXPECT_THAT(with([](auto& s) { s.restSpeed = -1e-6; }), HasSubstr("restSpeed"));
   EXPECT_EQ(with([](auto& s) { s.friction = AngleCurve::constant(3.0); }), "no complaint");
+  EXPECT_THAT(with([](auto& s) { s.frictionKind = Friction::Kind::fraction_of_critical; }),
+              HasSubstr("frictionKind"));
   EXPECT_THAT(with([](auto& s) {
+                s.law = Law::restitution;
                 s.frictionKind = Friction::Kind::fraction_of_critical;
                 s.friction = AngleCurve::constant(1.1);
               }),
               HasSubstr("friction"));
   EXPECT_EQ(with([](auto& s) {
+              s.law = Law::restitution;
               s.frictionKind = Friction::Kind::fraction_of_critical;
               s.friction = AngleCurve::constant(1.0);
               s.penetrationTime = 0.0;

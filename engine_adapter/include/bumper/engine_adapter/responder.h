@@ -38,18 +38,20 @@ inline constexpr unsigned unsettled = 8;  ///< a vehicle still approached a wall
 /// Replaces ODE's contact joints between vehicles and barriers by impulses, delivered as constant
 /// forces (the paper's scheme).
 ///
-/// The responder borrows the world. It owns exactly the contacts that it answers: those of a
-/// vehicle's bodies with walls at the heights of its band, as long as the vehicle stands upright.
-/// All others stay ODE's. Each step: collide, add your own forces, step(h), step the world by the
-/// same h.
+/// The responder borrows the world. It owns the contacts of a vehicle's bodies with walls at the
+/// heights of its band, as long as the vehicle stands upright, and answers them at the outline,
+/// which should therefore enclose the bodies' geoms. All other contacts stay ODE's. Each step:
+/// collide, add your own forces, step(h), step the world by the same h.
 ///
 /// Vehicle frame: x forward, y left, z up in the chassis body's axes, origin at the mass centre of
 /// the chassis and its linked bodies. World: right-handed, z up, metres, double precision.
 ///
 /// Barriers stand still. Nothing here touches data, callbacks or collision bits of the
-/// application's geoms and bodies. A body or geom must be removed here before it is destroyed.
-/// Set-up calls throw Error and then change nothing; step(), claims() and keepUnclaimed() do not
-/// throw. One responder belongs to one thread at a time; see trimeshLock() for several.
+/// application's geoms and bodies. A body, a geom, or the space that holds a barrier's new geom
+/// must be removed here before it is destroyed, or outlive the responder. Set-up calls throw Error
+/// and then change nothing; step(), claims() and keepUnclaimed() do not throw, unless memory runs
+/// out. A responder that was moved from can only be destroyed or assigned to. One responder belongs
+/// to one thread at a time; see trimeshLock() for several.
 class Responder {
  public:
   /// Throws Error if the world is null, ODE is not in double precision, or a setting is invalid.
@@ -95,7 +97,8 @@ class Responder {
   int keepUnclaimed(dGeomID a, dGeomID b, dContact* contacts, int count) const;
 
   /// Finds the impacts of the coming step of `h` seconds and adds their forces to the bodies. The
-  /// events are valid until the next call.
+  /// events are valid until the next step(), the names in them as long as their owners are
+  /// registered. Vehicles that ODE has put to sleep stay asleep.
   std::span<const ImpactEvent> step(double h);
 
   /// The sum of the steps taken, s.

@@ -32,36 +32,55 @@ class CollisionStep {
   /// At most this many impulses are applied in one step.
   static constexpr int maxImpacts = 32;
 
-  /// `motion` is the vehicle's position now with the velocity that it would have at the step's end
-  /// without walls. Walls that the outline overlaps while approaching them push back, the one
-  /// touched first before the others, until nothing approaches.
+  /// `walls` are those within the outline enlarged by approach speed × penetration time on every
+  /// side. `motion` is the vehicle's position now with the velocity that it would have at the
+  /// step's end without walls. Walls that the outline overlaps while approaching them push back,
+  /// the one touched first before the others, until nothing approaches.
   StepOutcome resolve(const VehicleParameters& vehicle, const PlanarMotion& motion,
                       std::span<const WallSegment> walls);
 
  private:
-  /// A wall that the outline overlaps.
-  struct Touched {
-    Overlap overlap;
-    const ResponseSettings* settings = nullptr;
-    bool hidden = false;
-    bool struck = false;
-    double penetration = 0.0;  ///< at which its contact point is taken, once struck
+  /// One point of the outline, a wall's normal there, and how fast they close, m/s.
+  struct Approach {
+    ContactPoint contact;
+    Vector2 normal;
+    double speed = 0.0;
   };
 
-  /// The next impulse to apply: which wall, and where on the outline.
+  /// A wall nearby, and what is known of the outline in it.
+  struct Wall {
+    Overlap overlap;
+    const ResponseSettings* settings = nullptr;
+    Vector2 startPoint;
+    Vector2 endPoint;
+    bool touched = false;  ///< the outline overlaps it, and nothing hides it
+    bool struck = false;   ///< … and `contact` has had an impulse
+    bool passed = false;   ///< … that lets the vehicle through
+    Approach contact;
+  };
+
+  /// The next impulse to apply; none if `wall` is null.
   struct Next {
-    Touched* wall = nullptr;
-    ContactPoint contact;
-    double urgency = 0.0;
+    Wall* wall = nullptr;
+    Approach at;
   };
 
   void mergeWalls(std::span<const WallSegment> walls, const Vector2& centre);
-  void findTouched(const Outline& outline, const PlanarMotion& motion);
-  void dropHidden(const Outline& outline, const PlanarMotion& motion);
-  Next nextImpact(const Outline& outline, const PlanarMotion& motion);
+  void findTouched();
+  void dropHidden();
+  Next firstNewWall();
+  Next fastestStruckWall();
+  [[nodiscard]] Approach approach(const ContactPoint& contact, const Vector2& normal) const;
+  [[nodiscard]] Approach touching(const Wall& wall) const;
+  [[nodiscard]] Approach middleOfChain(const Wall& struck, double penetration) const;
+  [[nodiscard]] double sinceTouch(const Wall& wall) const;
+
+  // Of the step that is being resolved.
+  Outline outline_{VehicleParameters{}};
+  PlanarMotion motion_;
 
   std::vector<WallSegment> merged_;
-  std::vector<Touched> touched_;
+  std::vector<Wall> walls_;
   std::vector<StepImpact> impacts_;
 };
 

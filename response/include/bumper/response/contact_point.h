@@ -52,6 +52,9 @@ struct Overlap {
   double deepest = 0.0;  ///< tangent · p of that point, or of the middle of a flush side
 };
 
+/// A wall's line as seen from `position`: normal, offset, start and end of an overlap, no more.
+Overlap lineOf(const WallSegment& wall, const Vector2& position);
+
 /// The overlap of the outline, placed at `position` and `yaw`, with a wall; nothing if the wall
 /// does not pass through it.
 std::optional<Overlap> findOverlap(const Outline& outline, const Vector2& position, double yaw,
@@ -70,6 +73,19 @@ struct ContactPoint {
 /// mass centre is taken as one at the mass centre.
 ContactPoint contactPoint(const Outline& outline, const Vector2& position, double yaw,
                           const Overlap& overlap, double penetration);
+
+/// How far the outline is to be moved along the normal, m, so that its deepest point is
+/// `penetration` inside the wall: within bounds as contactPoint() says.
+double moveTo(const Overlap& overlap, const Vector2& position, double penetration);
+
+/// The part of a wall's line inside the outline.
+struct Interference {
+  bool empty = true;
+  double length = 0.0;  ///< m
+  ContactPoint middle;
+};
+Interference interference(const Outline& outline, const Vector2& position, double yaw,
+                          const Overlap& overlap);
 
 /// Up to four contact points.
 struct ContactPoints {

@@ -26,6 +26,7 @@ struct ImpactResponse {
   double energyAsked = 1.0;    ///< P(α); NaN under the restitution law
   double energyRatio = 1.0;    ///< yaw-plane energy after / before
   EnergyOutcome outcome = EnergyOutcome::not_asked;
+  bool brokeThrough = false;  ///< the vehicle goes on through the wall, EnergyRoot::break_through
   ContactSolution contact;
   PlanarImpulse impulse;  ///< on the vehicle
   PlanarMotion before;

@@ -26,6 +26,7 @@ struct ResponseSettings {
   AngleCurve restitution = AngleCurve::cosine(0.3, 0.05);
   /// μ(α), values ≥ 0; with fraction_of_critical in [0, 1].
   AngleCurve friction = AngleCurve::cosine(0.3, 0.0);
+  /// The energy law and Method::paper know coulomb only.
   Friction::Kind frictionKind = Friction::Kind::coulomb;
   /// P(α), values in [0, 1]: the fraction of yaw-plane energy that remains. Energy law only.
   AngleCurve energyRemaining = AngleCurve::cosine(0.92, 0.04);
