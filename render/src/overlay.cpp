@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "speed_colours.h"
@@ -24,6 +25,12 @@ const Colour softInk(0.09F, 0.10F, 0.14F, 0.72F);
 const Colour paper(1.0F, 1.0F, 1.0F, 0.86F);
 const Colour white(1.0F, 1.0F, 1.0F, 1.0F);
 const Colour mark(0.87F, 0.00F, 0.47F, 1.0F);
+
+/// m/s: the hardest impact has an arrow of full length if its Δv is at least this.
+constexpr double fullArrowDeltaV = 5.0;
+constexpr double fullArrow = 34.0;  ///< in the small text's units
+
+constexpr const char* markLegend = "arrow: push of the wall, dv: change of velocity";
 
 /// Draws in pixels, x to the right and y down.
 class Pen {
@@ -136,7 +143,8 @@ Box grown(const Box& box, double by) {
 struct PlacedMark {
   const DrawnImpact* impact = nullptr;
   Vector2d point;
-  Vector2d tip;  ///< of the arrow
+  Vector2d tail;  ///< of the arrow, on the mark's rim
+  Vector2d tip;
 };
 
 /// What a label may cover if it must, at a price per area.
@@ -157,7 +165,8 @@ class Overlay {
         small_(std::max(1.0, std::round(options.height / 180.0) / 2.0)),
         large_(std::max(1.0, std::round(options.height / 120.0) / 2.0)),
         margin_(std::round(0.022 * options.height)),
-        padding_(4.0 * small_) {}
+        padding_(4.0 * small_),
+        markRadius_(3.6 * small_) {}
 
   void addTitle(const std::string& title) {
     std::string second;
@@ -171,20 +180,31 @@ class Overlay {
         second += fixed(worst->event.deltaV, 1) + " m/s";
       }
     }
+    struct Line {
+      std::string text;
+      double scale;
+      double top;
+      const Colour& colour;
+    };
     const double room = options_.width - 2.0 * (margin_ + padding_);
-    const double scale = scaleFor(title, large_, room);
-    const double secondScale = scaleFor(second, small_, room);
-    const double width = std::max(scale * textWidth(title), secondScale * textWidth(second));
-    const double gap = second.empty() ? 0.0 : 5.0 * secondScale;
-    const double height =
-        scale * capitalHeight + (second.empty() ? 0.0 : gap + secondScale * capitalHeight);
+    std::vector<Line> lines;
+    Vector2d size = Vector2d::Zero();
+    const auto addLine = [&](const std::string& text, double wanted, const Colour& colour) {
+      if (text.empty()) return;
+      const double scale = scaleFor(text, wanted, room);
+      if (!lines.empty()) size.y() += 5.0 * scale;
+      lines.push_back({text, scale, size.y(), colour});
+      size.x() = std::max(size.x(), scale * textWidth(text));
+      size.y() += scale * capitalHeight;
+    };
+    addLine(title, large_, ink);
+    addLine(second, small_, softInk);
+    if (options_.showImpacts && !run_.impacts.empty()) addLine(markLegend, small_, softInk);
     const Vector2d corner(margin_, margin_);
-    const Box area(corner,
-                   Vector2d(corner + Vector2d(width + 2.0 * padding_, height + 2.0 * padding_)));
-    addPanel(area);
-    pen_.text(corner + Vector2d(padding_, padding_), title, scale, ink);
-    pen_.text(corner + Vector2d(padding_, padding_ + scale * capitalHeight + gap), second,
-              secondScale, softInk);
+    addPanel(Box(corner, Vector2d((corner + size).array() + 2.0 * padding_)));
+    for (const Line& line : lines)
+      pen_.text(corner + Vector2d(padding_, padding_ + line.top), line.text, line.scale,
+                line.colour);
   }
 
   void addLegend() {
@@ -270,13 +290,11 @@ class Overlay {
     for (const DrawnImpact& impact : run_.impacts) {
       const auto point = camera_.pixel(impact.event.contact);
       if (!point) continue;
-      const double share =
-          worst->event.deltaV > 0.0 ? std::sqrt(impact.event.deltaV / worst->event.deltaV) : 0.0;
-      marks.push_back({&impact, *point, arrowTip(impact.event, *point, share)});
+      const double share = impact.event.deltaV / std::max(worst->event.deltaV, fullArrowDeltaV);
+      marks.push_back(placeMark(impact, *point, share));
     }
-    const double radius = 3.6 * small_;
     for (const PlacedMark& placed : marks) {
-      avoided_.push_back(grown(Box(placed.point), radius + small_));
+      avoided_.push_back(grown(Box(placed.point), markRadius_ + small_));
       if (placed.impact->labelled) {
         Box arrow(placed.point);
         avoided_.push_back(grown(Box(arrow.extend(placed.tip)), 1.5 * small_));
@@ -284,29 +302,31 @@ class Overlay {
     }
     for (const PlacedMark& placed : marks) {
       if (!placed.impact->labelled) continue;
-      pen_.arrow(placed.point, placed.tip, 1.8 * small_, white, 0.9 * small_);
+      pen_.arrow(placed.tail, placed.tip, 1.8 * small_, white, 0.9 * small_);
     }
     for (const PlacedMark& placed : marks) {
       if (!placed.impact->labelled) continue;
-      pen_.arrow(placed.point, placed.tip, 1.8 * small_, ink);
+      pen_.arrow(placed.tail, placed.tip, 1.8 * small_, ink);
     }
-    std::vector<Box> labels;
+    std::vector<std::optional<Box>> labels;
     for (const PlacedMark& placed : marks) {
-      if (placed.impact->labelled)
-        labels.push_back(placeLabel(placed, marks));
-      else
-        labels.emplace_back();
+      labels.push_back(placed.impact->labelled ? placeLabel(placed, marks) : std::nullopt);
+      if (labels.back()) keepClear(placed.point, *labels.back());
     }
     for (std::size_t k = 0; k < marks.size(); ++k) {
-      if (marks[k].impact->labelled) pen_.line(marks[k].point, labels[k].center(), small_, ink);
+      if (labels[k]) pen_.line(marks[k].point, labels[k]->center(), small_, ink);
     }
-    for (const PlacedMark& placed : marks) {
-      const double size = placed.impact->labelled ? radius : 0.7 * radius;
-      pen_.disc(placed.point, size + small_, white);
-      pen_.disc(placed.point, size, mark);
+    // Small ones first: they may lie at the same place.
+    for (const bool labelled : {false, true}) {
+      const double size = labelled ? markRadius_ : 0.6 * markRadius_;
+      for (const PlacedMark& placed : marks) {
+        if (placed.impact->labelled != labelled) continue;
+        pen_.disc(placed.point, size + small_, white);
+        pen_.disc(placed.point, size, mark);
+      }
     }
     for (std::size_t k = 0; k < marks.size(); ++k) {
-      if (marks[k].impact->labelled) drawLabel(*marks[k].impact, labels[k]);
+      if (labels[k]) drawLabel(*marks[k].impact, *labels[k]);
     }
   }
 
@@ -336,16 +356,18 @@ class Overlay {
     return {camera_.right().dot(direction), -camera_.up().dot(direction)};
   }
 
-  [[nodiscard]] Vector2d arrowTip(const ImpactEvent& event, const Vector2d& point,
-                                  double share) const {
-    const Vector3d ahead = event.contact + 0.5 * event.normal;
+  /// With an arrow of a share of the full length.
+  [[nodiscard]] PlacedMark placeMark(const DrawnImpact& impact, const Vector2d& point,
+                                     double share) const {
+    const Vector3d ahead = impact.event.contact + 0.5 * impact.event.normal;
     const Vector2d way = camera_.pixel(ahead).value_or(point) - point;
-    if (way.norm() < 1e-9) return point;
+    if (way.norm() < 1e-9) return {&impact, point, point, point};
     // As long as the direction allows: one that points at the camera is short.
     const double foreshortening =
-        std::min(1.0, way.norm() / (0.5 * camera_.pixelsPerMetre(event.contact)));
-    return point +
-           (12.0 + 22.0 * share) * small_ * std::max(0.4, foreshortening) * way.normalized();
+        std::min(1.0, way.norm() / (0.5 * camera_.pixelsPerMetre(impact.event.contact)));
+    const double length = fullArrow * small_ * share * std::max(0.4, foreshortening);
+    const Vector2d tail = point + markRadius_ * way.normalized();
+    return {&impact, point, tail, tail + length * way.normalized()};
   }
 
   /// A square around a point of the world, half a side in m, that a label should not cover.
@@ -374,8 +396,10 @@ class Overlay {
   }
 
   /// Where a label hides least: away from the arrow and from other marks if it can, over no other
-  /// label, mark or panel.
-  Box placeLabel(const PlacedMark& placed, const std::vector<PlacedMark>& marks) {
+  /// label, mark or panel. Nothing for a mark that lies outside the picture, or so near to its edge
+  /// that no label beside it lies inside.
+  [[nodiscard]] std::optional<Box> placeLabel(const PlacedMark& placed,
+                                              const std::vector<PlacedMark>& marks) const {
     const Vector2d size = labelSize(*placed.impact);
     Vector2d away = placed.point - placed.tip;
     away = away.norm() > 1e-9 ? Vector2d(away.normalized()) : Vector2d(0.0, 1.0);
@@ -387,7 +411,9 @@ class Overlay {
     away = away.stableNormalized();
     const Box picture(Vector2d(margin_, margin_),
                       Vector2d(options_.width - margin_, options_.height - margin_));
-    Box best;
+    if (!Box(Vector2d::Zero(), Vector2d(options_.width, options_.height)).contains(placed.point))
+      return {};
+    std::optional<Box> best;
     double least = std::numeric_limits<double>::infinity();
     for (const double distance : {10.0, 18.0, 28.0, 40.0, 55.0, 72.0}) {
       for (int k = 0; k < 24; ++k) {
@@ -398,9 +424,9 @@ class Overlay {
                                      std::abs(0.5 * size.y() / (std::abs(way.y()) + 1e-9)));
         const Vector2d centre = placed.point + (distance * small_ + half) * way;
         const Box area(Vector2d(centre - 0.5 * size), Vector2d(centre + 0.5 * size));
+        if (!picture.contains(area)) continue;
         double cost = 3.0 * distance + 70.0 * (1.0 - way.dot(away));
         const double unit = small_ * small_;
-        cost += 16.0 * (size.prod() - overlapArea(area, picture)) / unit;
         for (const Box& taken : avoided_) cost += 16.0 * overlapArea(area, taken) / unit;
         for (const auto& [taken, weight] : disliked_)
           cost += weight * overlapArea(area, taken) / unit;
@@ -413,10 +439,14 @@ class Overlay {
         }
       }
     }
-    avoided_.push_back(grown(best, 2.0 * small_));
-    labels_.push_back(grown(best, 2.0 * small_));
-    for (const Box& dot : leader(placed.point, best.center())) avoided_.push_back(dot);
     return best;
+  }
+
+  /// Of later labels: a label and the line to it from its mark.
+  void keepClear(const Vector2d& point, const Box& label) {
+    avoided_.push_back(grown(label, 2.0 * small_));
+    labels_.push_back(grown(label, 2.0 * small_));
+    for (const Box& dot : leader(point, label.center())) avoided_.push_back(dot);
   }
 
   /// Small boxes along the line from a mark to its label.
@@ -451,6 +481,7 @@ class Overlay {
   double large_;
   double margin_;
   double padding_;
+  double markRadius_;
   std::vector<Box> avoided_;
   std::vector<Box> labels_;
   std::vector<Disliked> disliked_;

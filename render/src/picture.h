@@ -36,9 +36,9 @@ struct Picture {
   Triangles background;  ///< behind everything
   Triangles surfaces;    ///< the scene: hides what is behind it, catches shadows
   Triangles outlines;    ///< edges on surfaces
-  Triangles ghosts;      ///< translucent, only the nearest one shows
   Triangles vehicles;    ///< solid
   Triangles ribbons;     ///< on the ground, hidden by what stands on it
+  Triangles ghosts;      ///< translucent, of several only the nearest shows
   Triangles overlay;     ///< in front of everything
 
   std::vector<Eigen::Vector3f> casters;  ///< triangles that throw shadows, relative to origin

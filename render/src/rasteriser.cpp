@@ -263,15 +263,15 @@ class Rasteriser {
 
   void drawLayers(GLuint shadowMap) const {
     const std::array<const Triangles*, 7> layers = {
-        &picture_.background, &picture_.surfaces, &picture_.outlines, &picture_.ghosts,
-        &picture_.vehicles,   &picture_.ribbons,  &picture_.overlay};
+        &picture_.background, &picture_.surfaces, &picture_.outlines, &picture_.vehicles,
+        &picture_.ribbons,    &picture_.ghosts,   &picture_.overlay};
     std::array<Range, layers.size()> ranges;
     Triangles all;
     for (std::size_t k = 0; k < layers.size(); ++k) {
       ranges[k] = {static_cast<GLint>(all.size()), static_cast<GLsizei>(layers[k]->size())};
       all.insert(all.end(), layers[k]->begin(), layers[k]->end());
     }
-    const auto& [background, surfaces, outlines, ghosts, vehicles, ribbons, overlay] = ranges;
+    const auto& [background, surfaces, outlines, vehicles, ribbons, ghosts, overlay] = ranges;
 
     const GLuint flat = program(vertexSource, flatFragmentSource);
     const GLuint lit = program(vertexSource, litFragmentSource);
@@ -308,15 +308,22 @@ class Rasteriser {
     gl_.DepthMask(GL_TRUE);
 
     gl_.UseProgram(lit);
+    paint(vehicles);
     // Depth first, then colour where it is nearest: ghosts do not show through themselves.
     gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     paint(ghosts);
     gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    paint(ghosts);
+
+    // Ribbons pass for nearer than they are: vehicles once more, over their ends.
+    gl_.UseProgram(flat);
+    gl_.DepthMask(GL_FALSE);
+    paint(ribbons);
+    gl_.DepthMask(GL_TRUE);
+    gl_.UseProgram(lit);
     paint(vehicles);
+    paint(ghosts);
 
     gl_.UseProgram(flat);
-    paint(ribbons);
     gl_.Disable(GL_DEPTH_TEST);
     paint(overlay);
   }

@@ -12,9 +12,13 @@ namespace bumper::drawing {
 namespace {
 
 constexpr std::size_t maxLabelled = 8;
+/// Impacts below this share of the hardest's Δv are weak.
+constexpr double weakShare = 0.1;
 
-/// Ghosts closer than this many vehicle lengths hide each other.
+/// Ghosts closer than this many vehicle lengths hide each other …
 constexpr double crowded = 0.85;
+/// … and closer than this they look like one.
+constexpr double merged = 0.1;
 constexpr double evenSpacing =
     2.2;  ///< vehicle lengths between ghosts without a reason of their own
 constexpr double maxEvenGhosts = 8.0;
@@ -123,22 +127,24 @@ Span timeOfInterest(const Recording& recording) {
   return span;
 }
 
-/// The end, which has precedence, the start, impacts, the hardest first, and what fills the gaps.
+/// The end and the hardest impact, which are shown even if they overlap, the start, the other
+/// impacts, the harder first, and what fills the gaps.
 std::vector<double> chosenInstants(const Recording& recording, const Span& span) {
   std::vector<double> instants = {span.end};
-  const auto add = [&](double time) {
+  const auto add = [&](double time, double apart) {
     const bool free = std::ranges::none_of(
-        instants, [&](double other) { return separation(recording, time, other) < crowded; });
+        instants, [&](double other) { return separation(recording, time, other) < apart; });
     if (free && time >= span.start && time <= span.end) instants.push_back(time);
   };
-  add(span.start);
   std::vector<ImpactEvent> impacts;
   impacts.reserve(recording.impacts().size());
   for (const RecordedImpact& impact : recording.impacts()) impacts.push_back(impact.event());
   std::ranges::stable_sort(impacts, std::ranges::greater{}, &ImpactEvent::deltaV);
+  if (!impacts.empty()) add(impacts.front().time, merged);
+  add(span.start, crowded);
   for (const ImpactEvent& impact : impacts) {
     if (instants.size() >= 2 + maxLabelled) break;
-    add(impact.time);
+    add(impact.time, crowded);
   }
   std::ranges::sort(instants);
   fillGaps(recording, instants);
@@ -182,7 +188,8 @@ void labelHardest(std::vector<DrawnImpact>& impacts) {
   std::ranges::stable_sort(order, std::ranges::greater{},
                            [](const DrawnImpact* impact) { return impact->event.deltaV; });
   if (order.size() > maxLabelled) order.resize(maxLabelled);
-  for (DrawnImpact* impact : order) impact->labelled = true;
+  for (DrawnImpact* impact : order)
+    impact->labelled = impact->event.deltaV >= weakShare * order.front()->event.deltaV;
 }
 
 }  // namespace

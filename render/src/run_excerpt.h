@@ -19,7 +19,7 @@ struct DrawnPose {
 struct DrawnImpact {
   std::size_t number = 0;  ///< from 1, in the recording's order
   ImpactEvent event;       ///< its names live as long as the recording
-  bool labelled = false;
+  bool labelled = false;   ///< has a number and an arrow; the others are small dots
 };
 
 /// The part of a recording that a picture shows.

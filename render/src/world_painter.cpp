@@ -22,6 +22,8 @@ using Eigen::Vector4d;
 
 const Vector3f horizonColour(0.90F, 0.92F, 0.93F);
 const Vector3f zenithColour(0.50F, 0.66F, 0.82F);
+/// Walls in the top view: a vertical one shows nothing but its edges there.
+const Vector3f wallColour(1.00F, 0.74F, 0.52F);
 const Vector3f nowhereColour(0.82F, 0.84F, 0.82F);  ///< where there is no scene
 
 /// As walls are told from the ground: |vertical component of the unit normal|.
@@ -32,8 +34,9 @@ constexpr double smoothCosine = 0.9;
 constexpr double ribbonWidth = 0.7;        ///< m …
 constexpr double ribbonLeastPixels = 4.0;  ///< … but at least
 constexpr double ribbonAboveGround = 0.02;
-/// From above the height is not seen; a ribbon at knee height does not sink into bumps.
-constexpr double ribbonFromAbove = 0.3;
+/// m by which a ribbon counts as nearer to the camera, so that uneven ground does not hide it; less
+/// than from the path of a vehicle to the wall that it slides along.
+constexpr double ribbonNearer = 0.5;
 /// Below this length on the picture, pixels, a vehicle is drawn as an arrowhead …
 constexpr double leastVehiclePixels = 12.0;
 constexpr double arrowheadPixels = 15.0;  ///< … of this length
@@ -212,12 +215,15 @@ void WorldPainter::addScene(const Scene& scene) {
   for (const Scene::Triangle& triangle : scene.triangles) {
     const Corners corners = cornersOf(scene, triangle);
     const bool upright = std::abs(normalOf(corners).z()) < uprightLimit;
-    const Colour colour = opaque(scene.meshes[triangle.mesh].colour);
+    const bool tinted = upright && !camera_.perspective;
+    const Colour colour = opaque(tinted ? wallColour : scene.meshes[triangle.mesh].colour);
     addLit(corners, colour, upright ? 0.0F : 1.0F, picture_.surfaces);
     if (upright) addShadow(corners);
   }
-  for (const Edge& edge : edgesOf(scene))
-    addEdge(edge.from, edge.to, opaque(0.30F * scene.meshes[edge.mesh].colour));
+  for (const Edge& edge : edgesOf(scene)) {
+    const Vector3f dark = 0.30F * scene.meshes[edge.mesh].colour;
+    addEdge(edge.from, edge.to, opaque(camera_.perspective ? dark : wallColour));
+  }
 }
 
 /// A line of constant width on the picture, a little nearer than the surface that it lies on.
@@ -235,7 +241,7 @@ void WorldPainter::addEdge(const Vector3d& from, const Vector3d& to, const Colou
   const Vector2d way = (b.head<2>() / b.w() - a.head<2>() / a.w()).cwiseProduct(toPixels);
   if (way.norm() < 1e-6) return;
   const Vector2d across = Vector2d(-way.y(), way.x()).normalized();
-  const double fullWidth = std::max(0.9, camera_.height / 600.0);
+  const double fullWidth = std::max(0.9, camera_.height / (camera_.perspective ? 600.0 : 400.0));
   // Far lines become fainter instead of crowding.
   const auto end = [&](const Vector4d& p, double side) {
     const double pixelsPerMetre = 0.5 * camera_.height * camera_.projection(1, 1) / p.w();
@@ -314,9 +320,9 @@ void WorldPainter::addPath(const RecordedVehicle& vehicle, const std::vector<Rec
     const Vector3d& after = path[std::min(k + 1, path.size() - 1)].position;
     const Vector3d way(after.x() - before.x(), after.y() - before.y(), 0.0);
     if (way.norm() > 1e-6) ahead = way.normalized();
-    const double lift = camera_.perspective ? ribbonAboveGround : ribbonFromAbove;
     const Vector3d onGround =
-        path[k].position - Vector3d(0.0, 0.0, vehicle.parameters.massCentreHeight - lift);
+        path[k].position -
+        Vector3d(0.0, 0.0, vehicle.parameters.massCentreHeight - ribbonAboveGround);
     double width = ribbonWidth;
     if (camera_.pixel(onGround))
       width = std::max(width, ribbonLeastPixels / camera_.pixelsPerMetre(onGround));
@@ -324,8 +330,9 @@ void WorldPainter::addPath(const RecordedVehicle& vehicle, const std::vector<Rec
     Colour colour = opaque(speedColour(path[k].velocity.norm() / fastest));
     const auto side = [&](const Vector3d& point) {
       Vertex vertex = vertexAt(point, colour, {});
-      // Nearer than the ground that it lies on.
-      vertex.clip[2] -= (camera_.perspective ? 2e-4F : 5e-4F) * vertex.clip[3];
+      const Vector4d nearer = camera_.clip(point + ribbonNearer * camera_.towards(point));
+      if (nearer.w() > 0.0)
+        vertex.clip[2] = static_cast<float>(nearer.z() / nearer.w()) * vertex.clip[3];
       return vertex;
     };
     stations.push_back({side(onGround + across), side(onGround - across)});

@@ -18,7 +18,7 @@ class WorldPainter {
   WorldPainter(const Camera& camera, Picture& picture);
 
   /// Lit surfaces in their meshes' colours; edges of what stands upright are drawn as lines, and it
-  /// throws shadows.
+  /// throws shadows. In the top view walls and their edges have a colour of their own.
   void addScene(const Scene& scene);
   /// Ghosts and solid vehicles in their paint.
   void addVehicles(const Recording& recording, const RunExcerpt& run);

@@ -1,5 +1,5 @@
 # Installs the build tree into an empty prefix, then builds and runs the consumer against it.
-#   cmake -D BUILD=<build tree> -D SOURCE=<tests/consumer> -D WORK=<folder> -P run_consumer.cmake
+#   cmake -D BUILD=<build tree> -D GENERATOR=<its generator> -D SOURCE=<tests/consumer> -D WORK=<folder> -P run_consumer.cmake
 file(REMOVE_RECURSE ${WORK})
 
 function(run)
@@ -10,7 +10,7 @@ function(run)
 endfunction()
 
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
-run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -D CMAKE_PREFIX_PATH=${WORK}/prefix
+run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCE} -B ${WORK}/build -D CMAKE_PREFIX_PATH=${WORK}/prefix
     -D CMAKE_BUILD_TYPE=Release)
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)

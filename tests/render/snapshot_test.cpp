@@ -130,6 +130,64 @@ Image drawStanding(double heading) {
 /// Rad in (−π/2, π/2] between two axes.
 double angleBetween(double a, double b) { return std::remainder(a - b, std::numbers::pi); }
 
+struct Hit {
+  Vector2d contact;
+  Vector2d normal;
+  double deltaV;
+};
+
+/// A car that drives along y = 10 m from x = 30 m to x = 60 m in 2 s and then back to `end`; its
+/// impacts all happen at the turn.
+Recording thereAndBack(double end, const std::vector<Hit>& hits) {
+  Recording run;
+  const VehicleParameters parameters = testing::saloon();
+  const std::size_t car = run.addVehicle("saloon", parameters);
+  for (int k = 0; k <= 60; ++k) {
+    RecordedPose pose;
+    pose.time = 0.05 * k;
+    pose.position = {k <= 40 ? 30.0 + 0.75 * k : 60.0 + (end - 60.0) * (k - 40) / 20.0, 10.0,
+                     parameters.massCentreHeight};
+    pose.velocity.x() = k <= 40 ? 15.0 : end - 60.0;
+    run.addPose(car, pose);
+  }
+  for (const Hit& hit : hits) {
+    ImpactEvent event;
+    event.time = 2.0;
+    event.vehicle = "saloon";
+    event.contact << hit.contact, parameters.massCentreHeight;
+    event.normal << hit.normal, 0.0;
+    event.deltaV = hit.deltaV;
+    run.addImpact(event);
+  }
+  return run;
+}
+
+bool isInk(const Rgb& pixel) { return pixel.red < 40 && pixel.green < 45 && pixel.blue < 55; }
+
+/// The longest run of a mark's and a label's colours along a row or a column.
+int longestRun(const Image& image, Eigen::Vector2i from, const Eigen::Vector2i& step) {
+  int longest = 0;
+  int length = 0;
+  for (; from.x() < image.width() && from.y() < image.height(); from += step) {
+    const Rgb& pixel = image.at(from.x(), from.y());
+    const bool white = pixel.red > 245 && pixel.green > 245 && pixel.blue > 245;
+    length = isInk(pixel) || white || isMarkColour(pixel) ? length + 1 : 0;
+    longest = std::max(longest, length);
+  }
+  return longest;
+}
+
+/// From an impact's mark to the tip of its arrow, for a normal that points up in the picture.
+double tipAbove(const Image& image, const Vector2d& mark) {
+  const int x = static_cast<int>(mark.x());
+  int last = static_cast<int>(mark.y());
+  for (int y = last; y > last - 12 || isInk(image.at(x, y + 1)); --y) {
+    if (isInk(image.at(x, y))) last = y;
+    if (y <= 1) break;
+  }
+  return mark.y() - last;
+}
+
 TEST(TopView, everyMarkIsAtItsContactPoint) {
   for (const bool upright : {false, true}) {
     const Recording run = upright ? turnedLeft(testing::testRailRun()) : testing::testRailRun();
@@ -236,6 +294,76 @@ TEST(TopView, theScaleBarIsOfRoundLengthAndToScale) {
   EXPECT_NEAR(longest / TopView(run, options).scale, 10.0, 0.3);
 }
 
+TEST(TopView, arrowsAreProportionalToTheImpact) {
+  SnapshotOptions options;
+  options.showVehicles = options.showPath = false;
+  const auto tips = [&](const std::vector<Hit>& hits) {
+    const Recording run = thereAndBack(55.0, hits);
+    const Image image = renderSnapshot(testRail(), run, options);
+    std::vector<double> result;
+    for (const RecordedImpact& impact : run.impacts()) {
+      result.push_back(
+          tipAbove(image, *projectToSnapshot(testRail(), run, options, impact.event().contact)));
+    }
+    return result;
+  };
+  const Vector2d up(0.0, 1.0);
+  const auto strong = tips({{{33, 12}, up, 20.0}, {{43, 12}, up, 10.0}, {{53, 12}, up, 5.0}});
+  const double full = 2.0 * (strong[0] - strong[1]);
+  const double rim = strong[0] - full;
+  // A tip ends in a part of a pixel.
+  constexpr double tolerance = 3.0;
+  EXPECT_GT(full, 50.0);
+  EXPECT_GT(rim, 0.0);
+  EXPECT_NEAR(strong[2], rim + 0.25 * full, tolerance);
+  // The hardest has a full arrow from 5 m/s on.
+  EXPECT_NEAR(tips({{{43, 12}, up, 5.0}})[0], rim + full, tolerance);
+  EXPECT_NEAR(tips({{{43, 12}, up, 2.5}})[0], rim + 0.5 * full, tolerance);
+}
+
+TEST(TopView, weakImpactsAreDots) {
+  const auto marksWith = [](double deltaV) {
+    SnapshotOptions options;
+    options.showVehicles = options.showPath = false;
+    const Vector2d up(0.0, 1.0);
+    const Recording run = thereAndBack(55.0, {{{35, 12}, up, 20.0}, {{50, 12}, up, deltaV}});
+    return findPatches(renderSnapshot(testRail(), run, options), isMarkColour);
+  };
+  // A mark, and the field behind its number.
+  EXPECT_EQ(marksWith(2.1).size(), 4U);
+  const auto marks = marksWith(1.9);
+  ASSERT_EQ(marks.size(), 3U);
+  const auto smallest =
+      std::ranges::min_element(marks, {}, [](const auto& patch) { return patch.pixels.size(); });
+  EXPECT_GT(smallest->pixels.size(), 20U);
+  for (auto patch = marks.begin(); patch != marks.end(); ++patch) {
+    if (patch == smallest) continue;
+    EXPECT_GT(patch->pixels.size(), 2 * smallest->pixels.size());
+  }
+}
+
+TEST(TopView, wallsStandOutFromGroundOfTheirColour) {
+  Scene scene = testRail();
+  const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+  for (const auto& [x, z] : {std::pair{30.0, 0.0}, {60.0, 0.0}, {60.0, 1.0}, {30.0, 1.0}})
+    scene.vertices.emplace_back(x, 15.0, z);
+  const auto grey = static_cast<std::uint32_t>(scene.meshes.size());
+  scene.meshes.push_back({"wall", "wall", {0.37F, 0.38F, 0.39F}});
+  scene.triangles.push_back({{first, first + 1, first + 2}, grey});
+  scene.triangles.push_back({{first, first + 2, first + 3}, grey});
+  const Recording run = thereAndBack(55.0, {});
+  const Image image = renderSnapshot(scene, run, bare());
+  for (const double x : {32.0, 45.0, 58.0}) {
+    const auto place = projectToSnapshot(scene, run, bare(), {x, 15.0, 1.0});
+    const int column = static_cast<int>(place->x());
+    const int row = static_cast<int>(place->y());
+    int brightest = 0;
+    for (int y = row - 1; y <= row + 1; ++y)
+      brightest = std::max<int>(brightest, image.at(column, y).red);
+    EXPECT_GT(brightest, image.at(column, row - 12).red + 60) << x;
+  }
+}
+
 TEST(TopView, whatIsFarAboveDoesNotHideTheRun) {
   Scene scene = testRail();
   const auto first = static_cast<std::uint32_t>(scene.vertices.size());
@@ -297,6 +425,88 @@ TEST(ThreeQuarterView, framesTheHardestImpact) {
       EXPECT_LT(seen->y(), 0.95 * options.height);
     }
     EXPECT_GT(carIn(image).corners.size(), 3U);
+  }
+}
+
+TEST(Snapshot, showsAGhostAtTheHardestImpact) {
+  // The car ends half a length behind the place of the impact: only a ghost reaches to the wall.
+  const Recording run =
+      thereAndBack(58.0, {{{62.05, 10.0}, {-1.0, 0.0}, 20.0}, {{32.0, 10.0}, {-1.0, 0.0}, 3.0}});
+  for (const auto view : {SnapshotView::top, SnapshotView::three_quarter}) {
+    SnapshotOptions options = bare();
+    options.view = view;
+    const Image image = renderSnapshot(testRail(), run, options);
+    const auto place = projectToSnapshot(testRail(), run, options, {61.3, 10.0, 0.6});
+    int ghost = 0;
+    for (int y = -12; y <= 12; ++y) {
+      for (int x = -12; x <= 12; ++x) {
+        const Rgb& pixel =
+            image.at(static_cast<int>(place->x()) + x, static_cast<int>(place->y()) + y);
+        if (pixel.red > pixel.green + 40 && pixel.green > pixel.red / 3) ++ghost;
+      }
+    }
+    EXPECT_GT(ghost, 25);
+  }
+}
+
+TEST(ThreeQuarterView, labelsLieInThePictureWhole) {
+  SnapshotOptions options;
+  options.view = SnapshotView::three_quarter;
+  options.showVehicles = options.showPath = options.showTitle = false;
+  // Labels stand where the arrow does not point to.
+  Vector2d normal(0.0, 1.0);
+  const auto runWith = [&](double x) {
+    return thereAndBack(58.0, {{{62.05, 10.0}, {-1.0, 0.0}, 20.0}, {{x, 8.0}, normal, 2.1}});
+  };
+  // How far the second mark lies inside the picture, pixels.
+  const auto inside = [&](double x) {
+    const auto mark = projectToSnapshot(testRail(), runWith(x), options, {x, 8.0, 0.56});
+    if (!mark) return -1e9;
+    return std::min({mark->x(), options.width - mark->x(), mark->y(), options.height - mark->y()});
+  };
+  for (const double wanted : {-30.0, 12.0, 25.0, 40.0}) {
+    double out = 30.0;
+    double in = 58.0;
+    ASSERT_LT(inside(out), wanted);
+    ASSERT_GT(inside(in), wanted);
+    for (int k = 0; k < 30; ++k) (inside(0.5 * (out + in)) < wanted ? out : in) = 0.5 * (out + in);
+    for (const Vector2d& way : {Vector2d(0, 1), Vector2d(0, -1), Vector2d(1, 0), Vector2d(-1, 0)}) {
+      normal = way;
+      const Image image = renderSnapshot(testRail(), runWith(in), options);
+      // A label is 30 pixels high and more than 150 wide, a mark 15, its arrow less.
+      for (const int column : {0, options.width - 1})
+        EXPECT_LT(longestRun(image, {column, 0}, {0, 1}), 24) << wanted;
+      for (const int row : {0, options.height - 1})
+        EXPECT_LT(longestRun(image, {0, row}, {1, 0}), 24) << wanted;
+    }
+  }
+}
+
+TEST(ThreeQuarterView, thePathDoesNotSinkIntoBumps) {
+  Scene scene = testRail();
+  const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+  // A low ridge across the path.
+  for (const auto& [x, z] : {std::pair{46.0, 0.0}, {48.0, 0.15}, {50.0, 0.0}}) {
+    scene.vertices.emplace_back(x, 5.0, z);
+    scene.vertices.emplace_back(x, 15.0, z);
+  }
+  const auto mesh = static_cast<std::uint32_t>(scene.meshes.size());
+  scene.meshes.push_back({"ridge", "ground", {0.3F, 0.3F, 0.3F}});
+  for (const std::uint32_t k : {first, first + 2}) {
+    scene.triangles.push_back({{k, k + 2, k + 3}, mesh});
+    scene.triangles.push_back({{k, k + 3, k + 1}, mesh});
+  }
+  const Recording run = thereAndBack(55.0, {{{62.05, 10.0}, {-1.0, 0.0}, 20.0}});
+  SnapshotOptions options = bare();
+  options.view = SnapshotView::three_quarter;
+  options.showPath = true;
+  options.showVehicles = false;
+  const Image image = renderSnapshot(scene, run, options);
+  for (const double x : {46.5, 47.5, 48.0, 48.5, 49.5}) {
+    const auto place = projectToSnapshot(scene, run, options, {x, 10.0, 0.02});
+    const Rgb& pixel = image.at(static_cast<int>(place->x()), static_cast<int>(place->y()));
+    // Yellow: the top speed.
+    EXPECT_GT(pixel.red, pixel.blue + 60) << x;
   }
 }
 

@@ -83,8 +83,8 @@ Recording testRailRun() {
       piece.yawRate *= 1.0 - piece.fading * step;
     }
   }
-  run.addImpact(eventAt(1.50, {42.25, -0.91}, {-0.10453, 0.99452}, 2.1));
-  run.addImpact(eventAt(1.60, {40.50, -1.09}, {-0.10453, 0.99452}, 1.4));
+  run.addImpact(eventAt(1.50, {42.25, -0.91}, {-0.10453, 0.99452}, 4.2));
+  run.addImpact(eventAt(1.60, {40.50, -1.09}, {-0.10453, 0.99452}, 3.1));
   run.addImpact(eventAt(2.45, {66.75, 3.90}, {-0.98163, -0.19081}, 26.4));
   return run;
 }

@@ -17,8 +17,7 @@ enum class SnapshotView {
   /// drawn mass centres and contact points, grown on every side by 1.5 times the longest vehicle,
   /// at least by 6 m; its centre is the picture's centre. It is scaled to the largest size at which
   /// it takes at most 92 % of the picture's width and 76 % of its height. World x points right and
-  /// y
-  /// up; if that lays the frame's longer side along the picture's shorter, y points right and x
+  /// y up; if that lays the frame's longer side along the picture's shorter, y points right and x
   /// down. Nothing higher than 8 m above the run's highest mass centre is drawn.
   top,
   /// From behind, beside and above, on the open side of the wall: frames the hardest impact and
@@ -32,22 +31,25 @@ struct SnapshotOptions {
   int height = 720;  ///< pixels, 120 to 8192 and what the driver allows
   SnapshotView view = SnapshotView::top;
   /// s: when vehicles are drawn, all but the last as ghosts. The run is drawn from the first to the
-  /// last of them. Empty: the whole run, with the start, the impacts, the end, and instants at even
-  /// distances between them as far as there is room; in a three-quarter view the start and the end
-  /// of what it frames.
+  /// last of them. Empty: the whole run, with the end and the hardest impact, and as far as there
+  /// is room the start, the other impacts, and instants at even distances between them; in a
+  /// three-quarter view the start and the end of what it frames.
   std::vector<double> instants;
   std::string title;  ///< empty: the scene's name. ASCII; other letters appear as '?'
   bool showVehicles = true;
   bool showPath = true;      ///< a ribbon coloured by speed, with its legend
-  bool showImpacts = true;   ///< numbered marks with the wall's normal and Δv
+  bool showImpacts = true;   ///< marks; the strong with number, the wall's normal and Δv
   bool showScaleBar = true;  ///< top view only
-  bool showTitle = true;     ///< with the span of time and the hardest impact
+  bool showTitle = true;     ///< with the span of time, the hardest impact and the marks' legend
 };
 
-/// Draws a scene and what happened in it. Impacts are numbered from 1 in the recording's order; of
-/// more than eight the eight with the largest Δv have their numbers shown, the others a dot. An
-/// arrow along the wall's normal is the longer the larger Δv. A recording without poses shows the
-/// scene alone.
+/// Draws a scene and what happened in it. Impacts are numbered from 1 in the recording's order. The
+/// eight with the largest Δv, without those below a tenth of the hardest's, have a label with
+/// number and Δv, and an arrow along the wall's normal; the others are small dots. The arrow's
+/// length is proportional to Δv: full at the hardest impact's or at 5 m/s, whichever is more; one
+/// that points to or from the camera is drawn shorter. A label that would not fit into the picture
+/// is left out, its mark is not. In the top view walls have a colour of their own. A recording
+/// without poses shows the scene alone.
 ///
 /// The same input gives the same picture on one machine; other processors and drivers differ in
 /// single pixels. May be called from several threads at once; the calling thread is left without a
