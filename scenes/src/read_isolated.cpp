@@ -33,11 +33,10 @@ std::filesystem::path findProgram() {
     throw Error(std::string(programVariable) + " is \"" + given + "\", which is not a program");
   }
   std::error_code error;
-  const std::filesystem::path beside =
+  std::filesystem::path beside =
       std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / programName;
   if (!error && access(beside.c_str(), X_OK) == 0) return beside;
-  const std::filesystem::path installed =
-      std::filesystem::path(BUMPER_LIBEXEC_DIRECTORY) / programName;
+  std::filesystem::path installed = std::filesystem::path(BUMPER_LIBEXEC_DIRECTORY) / programName;
   if (access(installed.c_str(), X_OK) == 0) return installed;
   throw Error(std::string("the program ") + programName +
               ", which LoadOptions::isolate needs, is neither " + beside.string() + " nor " +
