@@ -69,7 +69,7 @@ TEST(EnergyLaw, RootsKeepTheEnergyAskedFor) {
     const Case c(random);
     const EnergyRoots roots = energyRoots(c.mobility, c.before, c.demand);
     const EnergyLine line(c.situation, c.slope);
-    const double deepest = static_cast<double>(line.deepest());
+    const auto deepest = static_cast<double>(line.deepest());
     ASSERT_NEAR(roots.deepest, deepest, 1e-12 * deepest * (1.0 + c.demand.friction)) << c;
     const Exact most = line.at(line.deepest());
     const double reach = ratioAfter(most);  // P_min

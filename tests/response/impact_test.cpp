@@ -56,7 +56,7 @@ TEST(Respond, ReadsTheCurvesAndAsksTheLaw) {
     Hit hit = randomHit(random);
     hit.settings.angle = static_cast<AngleDefinition>(random.below(3));
     const Situation s = situationOf(hit);
-    const double normal = static_cast<double>(normalBefore(s));
+    const auto normal = static_cast<double>(normalBefore(s));
     if (-normal < 2.0 * hit.settings.restSpeed) continue;  // there restitution fades
     const ImpactResponse response = answer(hit);
     EXPECT_EQ(response.law, Law::restitution);
@@ -78,7 +78,7 @@ TEST(Respond, ReadsTheCurvesAndAsksTheLaw) {
 
     const std::optional<Exact> exact = coulomb(s, response.restitution, response.friction);
     ASSERT_TRUE(exact.has_value());
-    const double size = static_cast<double>(exact->impulseNormal);
+    const auto size = static_cast<double>(exact->impulseNormal);
     ASSERT_NEAR(response.contact.impulse.normal, size, 1e-11 * size) << i << s;
     ASSERT_NEAR(apart(response.impulse.linear, exact->impulse), 0.0, 1e-11 * size);
     ASSERT_NEAR(apart(response.after.velocity, exact->vehicle.velocity), 0.0, 1e-10);
@@ -200,7 +200,7 @@ TEST(Respond, PaperMethodIsThePaper) {
     const Real ratio = tangentBefore(s) > 0.0L ? -Real{response.friction} : Real{response.friction};
     const std::optional<Exact> exact = atRatio(s, response.restitution, ratio);
     ASSERT_TRUE(exact.has_value());
-    const double size = static_cast<double>(exact->impulseNormal);
+    const auto size = static_cast<double>(exact->impulseNormal);
     ASSERT_NEAR(apart(response.impulse.linear, exact->impulse), 0.0, 1e-10 * size) << i << s;
 
     hit.settings.law = Law::energy;
@@ -208,7 +208,7 @@ TEST(Respond, PaperMethodIsThePaper) {
     const Real slope = tangentBefore(s) > 0.0L ? -Real{energy.friction} : Real{energy.friction};
     const EnergyLine line(s, slope);
     const std::optional<Real> root = line.larger(Real{energy.energyAsked} * exact->energyBefore);
-    const double expected = static_cast<double>(root ? *root : line.deepest());
+    const auto expected = static_cast<double>(root ? *root : line.deepest());
     ASSERT_NEAR(energy.contact.impulse.normal, expected, 1e-5 * expected) << i << s;
   }
 }

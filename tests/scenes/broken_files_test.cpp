@@ -154,7 +154,7 @@ TEST_F(BrokenFiles, ThatNeverEnd) {
 }
 
 TEST_F(BrokenFiles, ThatCrashTheReader) {
-  expectError(write("crash.ply", std::string("ply\nformat binary_\0\0", 21)), {.isolate = true},
+  expectError(write("crash.ply", std::string("ply\nformat binary_\0\0\0", 21)), {.isolate = true},
               "cannot be read");
 }
 

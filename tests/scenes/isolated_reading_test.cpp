@@ -175,6 +175,7 @@ TEST_F(IsolatedReading, WorksFromSeveralThreads) {
   std::array<std::size_t, 4> counts{};
   {
     std::vector<std::thread> threads;
+    threads.reserve(counts.size());
     for (std::size_t& count : counts) {
       threads.emplace_back([&] { count = load().triangles.size(); });
     }

@@ -189,7 +189,8 @@ TEST(WallExtents, OfALongPanelOverShortOnesFollowTheSlope) {
       EXPECT_NEAR(wall.foot, 0.0, rounding);
       EXPECT_NEAR(wall.top, 3.0, rounding);
     } else {
-      const double start = 2.0 * (wall.triangle / 2);
+      const int panel = wall.triangle / 2;
+      const double start = 2.0 * panel;
       EXPECT_NEAR(wall.foot, 0.1 * start, rounding);
       EXPECT_NEAR(wall.top, 0.1 * (start + 2.0) + 1.0, rounding);
     }

@@ -84,7 +84,7 @@ void Hinge2Car::drive(double speed, double maxTorque) {
   }
 }
 
-double Hinge2Car::mass() const { return chassisMass + 4.0 * wheelMass; }
+double Hinge2Car::mass() { return chassisMass + 4.0 * wheelMass; }
 
 VehicleParameters Hinge2Car::parameters() const {
   const double massCentreHeight =

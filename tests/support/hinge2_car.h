@@ -31,7 +31,7 @@ class Hinge2Car {
   void drive(double speed, double maxTorque);
 
   [[nodiscard]] VehicleParameters parameters() const;
-  [[nodiscard]] double mass() const;
+  [[nodiscard]] static double mass();
   [[nodiscard]] Eigen::Vector3d massCentre() const;
   [[nodiscard]] Eigen::Vector3d velocity() const;  ///< of the common mass centre
 
