@@ -25,11 +25,6 @@ VehicleParameters withMassOf(VehicleParameters parameters, const VehicleState& s
   return parameters;
 }
 
-void add(PlanarImpulse& sum, const PlanarImpulse& impulse) {
-  sum.linear += impulse.linear;
-  sum.angular += impulse.angular;
-}
-
 }  // namespace
 
 void UnknownForces::foresee(VehicleState& state) const {
@@ -147,7 +142,7 @@ PlanarImpulse Responder::Implementation::impulseOfContacts(Vehicle& vehicle,
     const ImpactResponse response =
         respond(*impact, motion, state.mass, state.yawInertia, *barrier->settings);
     report(vehicle, state, *barrier, impact->wall, *impact, response);
-    add(sum, response.impulse);
+    sum += response.impulse;
     motion = response.after;
   }
   return sum;

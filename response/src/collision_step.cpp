@@ -183,7 +183,7 @@ CollisionStep::Approach CollisionStep::middleOfChain(const Wall& struck, double 
 
 // What lies behind a wall that the outline is already in cannot be hit: its back, the ends of a
 // slab, a second skin.
-void CollisionStep::dropHidden() {
+void CollisionStep::findHidden() {
   constexpr double tolerance = 1e-6;  // m
   const auto behind = [](const Overlap& wall, const Overlap& front) {
     const Vector2 frontTangent = turnedLeft(front.normal);
@@ -205,12 +205,8 @@ void CollisionStep::dropHidden() {
       return own > others || (own == others && &wall > &other);
     });
   };
-  // Found first, dropped after: a wall hides others even if it is hidden itself.
-  for (Wall& wall : walls_) wall.passed = wall.touched && isHidden(wall);
-  for (Wall& wall : walls_) {
-    if (wall.passed) wall.touched = false;
-    wall.passed = false;
-  }
+  // A wall hides others even if it is hidden itself.
+  for (Wall& wall : walls_) wall.hidden = wall.touched && isHidden(wall);
 }
 
 // Of the walls that have had no impulse yet the one that was touched the longest time ago.
@@ -218,7 +214,7 @@ CollisionStep::Next CollisionStep::firstNewWall() {
   Next next;
   double longest = -1.0;
   for (Wall& wall : walls_) {
-    if (!wall.touched || wall.struck) continue;
+    if (!wall.touched || wall.hidden || wall.struck) continue;
     const bool asPaper = wall.settings->method == Method::paper;
     // The paper's point is the middle of the overlap as it is.
     const Approach first = asPaper ? approach(contactPoint(outline_, motion_.position, motion_.yaw,
@@ -257,7 +253,7 @@ StepOutcome CollisionStep::resolve(const VehicleParameters& vehicle, const Plana
 
   mergeWalls(walls, motion_.position);
   findTouched();
-  dropHidden();
+  findHidden();
 
   while (true) {
     Next next = firstNewWall();
@@ -277,8 +273,7 @@ StepOutcome CollisionStep::resolve(const VehicleParameters& vehicle, const Plana
     const ImpactResponse response =
         respond(impact, motion_, vehicle.mass, vehicle.yawInertia, settings, rebound);
     impacts_.push_back({impact, response});
-    outcome.impulse.linear += response.impulse.linear;
-    outcome.impulse.angular += response.impulse.angular;
+    outcome.impulse += response.impulse;
     motion_ = response.after;
 
     next.wall->struck = true;

@@ -23,6 +23,14 @@ bool createsEnergy(const ContactSolution& solution, const ContactVelocity& befor
   return solution.energyChange > energyRounding * scale;
 }
 
+// J* D: the impulse that ends the slip and leaves with −e v_n, up to the factor D > 0.
+ContactImpulse stickingImpulse(const ContactMobility& mobility, const ContactVelocity& before,
+                               double restitution) {
+  const double gain = -(1.0 + restitution) * before.normal;
+  return {.normal = gain * mobility.tangent + mobility.coupling * before.tangent,
+          .tangent = -before.tangent * mobility.normal - gain * mobility.coupling};
+}
+
 // J_n for a normal velocity after of −e v_n when J_t = ratio · J_n (Eq. 17 with a signed μ).
 double normalImpulse(const ContactMobility& mobility, const ContactVelocity& before,
                      double restitution, double ratio) {
@@ -48,24 +56,20 @@ Regime slipRegime(double before, double after) {
 
 double criticalImpulseRatio(const ContactMobility& mobility, const ContactVelocity& before,
                             double restitution) {
-  const double gain = -(1.0 + restitution) * before.normal;
-  const double normal = gain * mobility.tangent + mobility.coupling * before.tangent;
-  const double tangent = -before.tangent * mobility.normal - gain * mobility.coupling;
-  return normal > 0.0 ? tangent / normal : nan;
+  const ContactImpulse stick = stickingImpulse(mobility, before, restitution);
+  return stick.normal > 0.0 ? stick.tangent / stick.normal : nan;
 }
 
 ContactSolution solveForNormalVelocity(const ContactMobility& mobility,
                                        const ContactVelocity& before, double restitution,
                                        const Friction& friction) {
-  const double gain = -(1.0 + restitution) * before.normal;  // q
-  // J* D: the impulse that ends the slip and leaves with −e v_n, up to D > 0.
-  const double stickNormal = gain * mobility.tangent + mobility.coupling * before.tangent;
-  const double stickTangent = -before.tangent * mobility.normal - gain * mobility.coupling;
-  const bool canStick = stickNormal > 0.0;
-  const double critical = canStick ? stickTangent / stickNormal : nan;
+  const ContactImpulse stick = stickingImpulse(mobility, before, restitution);
+  const bool canStick = stick.normal > 0.0;
+  const double critical = canStick ? stick.tangent / stick.normal : nan;
 
-  // The slip after the impact grows steadily with the impulse ratio λ, at q D / (A + λC)², and
-  // vanishes at the critical ratio: one clamp covers sliding, sticking and reverse slip.
+  // The slip after the impact grows steadily with the impulse ratio λ, at q D / (A + λC)² with
+  // q = −(1+e) v_n, and vanishes at the critical ratio: one clamp covers sliding, sticking and
+  // reverse slip.
   //
   // A + λC stays positive. It is linear in λ, A > 0 at λ = 0 and q / J_n* > 0 at the critical
   // ratio, and the clamp leaves λ between those two. Where J_n* ≤ 0 there is no critical ratio;
@@ -83,8 +87,8 @@ ContactSolution solveForNormalVelocity(const ContactMobility& mobility,
   ContactImpulse impulse;
   if (sticks) {
     // Not q / (A + λC), which is 0 / 0 where a fast slip jams.
-    impulse = {.normal = stickNormal / mobility.determinant(),
-               .tangent = stickTangent / mobility.determinant()};
+    impulse = {.normal = stick.normal / mobility.determinant(),
+               .tangent = stick.tangent / mobility.determinant()};
   } else {
     impulse.normal = normalImpulse(mobility, before, restitution, ratio);
     impulse.tangent = ratio * impulse.normal;

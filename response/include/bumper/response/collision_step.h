@@ -53,7 +53,8 @@ class CollisionStep {
     const ResponseSettings* settings = nullptr;
     Vector2 startPoint;
     Vector2 endPoint;
-    bool touched = false;  ///< the outline overlaps it, and nothing hides it
+    bool touched = false;  ///< the outline overlaps it
+    bool hidden = false;   ///< … but it lies behind another touched wall
     bool struck = false;   ///< … and `contact` has had an impulse
     bool passed = false;   ///< … that lets the vehicle through
     Approach contact;
@@ -67,7 +68,7 @@ class CollisionStep {
 
   void mergeWalls(std::span<const WallSegment> walls, const Vector2& centre);
   void findTouched();
-  void dropHidden();
+  void findHidden();
   Next firstNewWall();
   Next fastestStruckWall();
   [[nodiscard]] Approach approach(const ContactPoint& contact, const Vector2& normal) const;

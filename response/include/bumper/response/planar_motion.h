@@ -34,6 +34,12 @@ inline Vector2 velocityAt(const PlanarMotion& motion, const Vector2& arm) {
 struct PlanarImpulse {
   Vector2 linear = Vector2::Zero();  ///< N s
   double angular = 0.0;              ///< N m s
+
+  PlanarImpulse& operator+=(const PlanarImpulse& other) {
+    linear += other.linear;
+    angular += other.angular;
+    return *this;
+  }
 };
 
 /// The motion after an impulse acted on the mass centre (Eqs. 1 and 2).
