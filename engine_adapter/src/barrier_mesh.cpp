@@ -50,6 +50,13 @@ BarrierMesh::BarrierMesh(const Scene& scene, const BarrierOptions& options, std:
   dGeomSetPosition(geom_, middle.x(), middle.y(), middle.z());
 }
 
+BarrierMesh::BarrierMesh(const Scene& scene, dGeomID geom, const BarrierOptions& options,
+                         std::string name, Query query)
+    : name_(std::move(name)), geom_(geom), solid_(dGeomGetClass(geom) == dBoxClass) {
+  keepWalls(scene, selectWalls(scene, options.walls));
+  buildMesh(query);
+}
+
 BarrierMesh::BarrierMesh(dGeomID trimesh, const BarrierOptions& options, std::string name,
                          Query query)
     : name_(std::move(name)), geom_(trimesh) {
@@ -80,7 +87,7 @@ void BarrierMesh::keepWalls(const Scene& scene, Walls selected) {
   highestFoot_ = -std::numeric_limits<double>::infinity();
   lowestTop_ = std::numeric_limits<double>::infinity();
   for (const Wall& wall : walls_) {
-    materialOfWall_.push_back(
+    meshOfWall_.push_back(
         static_cast<int>(scene.triangles[static_cast<std::size_t>(wall.triangle)].mesh));
     for (const Eigen::Vector3d& corner : wall.corners) {
       low_ = low_.cwiseMin(corner);
@@ -114,10 +121,6 @@ void BarrierMesh::buildMesh(Query query) {
     dGeomTriMeshSetArrayCallback(queryGeom_, &collectTriangles);
   }
   dGeomSetPosition(queryGeom_, middle.x(), middle.y(), middle.z());
-}
-
-const std::string& BarrierMesh::materialOf(int wall) const {
-  return materials_[static_cast<std::size_t>(materialOfWall_[static_cast<std::size_t>(wall)])];
 }
 
 WallPart BarrierMesh::partOf(int triangle) const {

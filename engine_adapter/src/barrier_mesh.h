@@ -19,7 +19,10 @@ class BarrierMesh {
 
   /// A new geom for the scene's walls in options.space.
   BarrierMesh(const Scene& scene, const BarrierOptions& options, std::string name, Query query);
-  /// The walls of the application's geom.
+  /// The walls of the application's geom, of any class, as a scene in world coordinates.
+  BarrierMesh(const Scene& scene, dGeomID geom, const BarrierOptions& options, std::string name,
+              Query query);
+  /// The walls of the application's trimesh.
   BarrierMesh(dGeomID trimesh, const BarrierOptions& options, std::string name, Query query);
   ~BarrierMesh();
   BarrierMesh(const BarrierMesh&) = delete;
@@ -32,10 +35,16 @@ class BarrierMesh {
   [[nodiscard]] const WallReport& report() const { return report_; }
   /// The geom that the application's contacts come with.
   [[nodiscard]] dGeomID geom() const { return geom_; }
-  [[nodiscard]] const std::string& materialOf(int wall) const;
-  /// What a triangle of geom() is to the walls.
+  /// The materials of the scene's meshes, and which of them a wall belongs to.
+  [[nodiscard]] const std::vector<std::string>& materials() const { return materials_; }
+  [[nodiscard]] std::size_t meshOf(int wall) const {
+    return static_cast<std::size_t>(meshOfWall_[static_cast<std::size_t>(wall)]);
+  }
+  /// What a triangle of geom() is to the walls; geom() must be a trimesh.
   [[nodiscard]] WallPart partOf(int triangle) const;
-  [[nodiscard]] bool hasWallsOnly() const { return parts_.empty(); }
+  [[nodiscard]] bool hasWallsOnly() const { return parts_.empty() && !solid_; }
+  /// The walls enclose a solid, whose outside is what their normals say.
+  [[nodiscard]] bool isSolid() const { return solid_; }
   /// The highest foot and the lowest top of all walls, m.
   [[nodiscard]] double highestFoot() const { return highestFoot_; }
   [[nodiscard]] double lowestTop() const { return lowestTop_; }
@@ -58,7 +67,7 @@ class BarrierMesh {
   std::vector<Wall> walls_;
   WallReport report_;
   std::vector<std::string> materials_;
-  std::vector<int> materialOfWall_;
+  std::vector<int> meshOfWall_;
   std::vector<WallPart> parts_;  // by triangle of geom(); empty: it holds walls only
   Eigen::Vector3d low_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d high_ = Eigen::Vector3d::Zero();
@@ -74,6 +83,7 @@ class BarrierMesh {
   dGeomID queryGeom_ = nullptr;  // in no space; carries our callbacks
   dGeomID geom_ = nullptr;
   bool ownsGeom_ = false;
+  bool solid_ = false;
 };
 
 }  // namespace bumper

@@ -79,25 +79,43 @@ OwnedPair ordered(const Responder::Implementation& responder, dGeomID vehicleGeo
   return {.vehicle = vehicle->second, .barrier = barrier->second};
 }
 
-template <typename Source>
-BarrierId add(Responder::Implementation& responder, const Source& source,
-              const BarrierOptions& options, std::string name) {
-  if (options.response) {
-    validate(*options.response);
-    if (options.response->method != responder.options.response.method) {
-      throw Error("BarrierOptions::response: all barriers of a responder follow the same method");
-    }
+void validateSettings(const ResponseSettings& settings, const ResponderOptions& usual) {
+  validate(settings);
+  if (settings.method != usual.response.method) {
+    throw Error("BarrierOptions: all barriers of a responder follow the same method");
   }
-  if (name.empty()) name = "barrier " + std::to_string(responder.barriers.size());
+}
+
+// Builds the barrier whole before anything refers to it.
+template <typename... Source>
+BarrierId add(Responder::Implementation& responder, const BarrierOptions& options, std::string name,
+              const Source&... source) {
+  if (options.response) validateSettings(*options.response, responder.options);
+  for (const auto& [material, settings] : options.materials) {
+    validateSettings(settings, responder.options);
+  }
+  const BarrierId id{static_cast<int>(responder.barriers.size())};
+  if (name.empty()) name = "barrier " + std::to_string(id.value);
   const bool exact = responder.options.contactSource == ContactSource::exact_cut;
-  // Built whole before anything refers to it.
   auto barrier = std::make_unique<Barrier>(
-      source, options, std::move(name),
+      id, source..., options, std::move(name),
       exact ? BarrierMesh::Query::list_triangles : BarrierMesh::Query::make_contacts,
       responder.options.response);
-  responder.barrierOfGeom.emplace(barrier->mesh.geom(), barrier.get());
+  responder.barrierOfGeom.emplace(barrier->geom(), barrier.get());
   responder.barriers.push_back(std::move(barrier));
-  return {static_cast<int>(responder.barriers.size()) - 1};
+  return id;
+}
+
+// Whether a geom of the application's can become a barrier.
+void requireUsable(const Responder::Implementation& responder, dGeomID geom) {
+  if (geom == nullptr) throw Error("addBarrier: the geom is null");
+  if (dGeomIsSpace(geom) != 0) throw Error("addBarrier: the geom is a space");
+  if (dGeomGetBody(geom) != nullptr) {
+    throw Error("addBarrier: the geom has a body: a barrier must stand still");
+  }
+  if (responder.barrierOfGeom.contains(geom)) {
+    throw Error("addBarrier: the geom is a barrier already");
+  }
 }
 
 }  // namespace
@@ -123,33 +141,29 @@ Responder::Responder(Responder&&) noexcept = default;
 Responder& Responder::operator=(Responder&&) noexcept = default;
 
 BarrierId Responder::addBarrier(const Scene& scene, const BarrierOptions& options) {
-  return add(*implementation_, scene, options, options.name.empty() ? scene.name : options.name);
+  std::string name = options.name.empty() ? scene.name : options.name;
+  if (options.geom == nullptr) return add(*implementation_, options, std::move(name), scene);
+  requireUsable(*implementation_, options.geom);
+  if (dGeomGetClass(options.geom) == dTriMeshClass) {
+    throw Error("addBarrier: BarrierOptions::geom is a trimesh: add it as it is");
+  }
+  return add(*implementation_, options, std::move(name), options.geom, scene);
 }
 
-BarrierId Responder::addBarrier(dGeomID trimesh, const BarrierOptions& options) {
-  if (trimesh == nullptr) throw Error("addBarrier: the geom is null");
-  if (dGeomGetClass(trimesh) != dTriMeshClass) {
-    throw Error("addBarrier: the geom is of ODE class " + std::to_string(dGeomGetClass(trimesh)) +
-                ": only a trimesh can be a barrier");
-  }
-  if (dGeomTriMeshGetTriMeshDataID(trimesh) == nullptr) {
+BarrierId Responder::addBarrier(dGeomID geom, const BarrierOptions& options) {
+  requireUsable(*implementation_, geom);
+  if (dGeomGetClass(geom) == dTriMeshClass && dGeomTriMeshGetTriMeshDataID(geom) == nullptr) {
     throw Error("addBarrier: the trimesh has no data");
   }
-  if (dGeomGetBody(trimesh) != nullptr) {
-    throw Error("addBarrier: the trimesh has a body: a barrier must stand still");
-  }
-  if (implementation_->barrierOfGeom.contains(trimesh)) {
-    throw Error("addBarrier: the trimesh is a barrier already");
-  }
-  return add(*implementation_, trimesh, options, options.name);
+  return add(*implementation_, options, options.name, geom);
 }
 
 dGeomID Responder::geom(BarrierId barrier) const {
-  return registered(implementation_->barriers, barrier.value, "barrier").mesh.geom();
+  return registered(implementation_->barriers, barrier.value, "barrier").geom();
 }
 
 const WallReport& Responder::report(BarrierId barrier) const {
-  return registered(implementation_->barriers, barrier.value, "barrier").mesh.report();
+  return registered(implementation_->barriers, barrier.value, "barrier").report();
 }
 
 VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parameters,
@@ -193,26 +207,32 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
   const int id = static_cast<int>(self.vehicles.size());
   const std::string name =
       options.name.empty() ? "vehicle " + std::to_string(id) : std::string(options.name);
-  auto vehicle = std::make_unique<Vehicle>(parameters, band, options.tiltLimit, name,
+  auto vehicle = std::make_unique<Vehicle>(VehicleId{id}, parameters, band, options.tiltLimit, name,
                                            std::move(vehicleBodies));
   for (dBodyID body : bodies) {
+    if (options.finiteRotation) dBodySetFiniteRotationMode(body, 1);
     warnOfLosses(body, name, self.warnings);
     warnOfStrangers(body, bodies, name, self.warnings);
     self.vehicleOfBody.emplace(body, vehicle.get());
   }
   self.vehicles.push_back(std::move(vehicle));
   // So that step() need not allocate when the first vehicle hits the first wall.
-  self.events.reserve(self.vehicles.size() * CollisionStep::maxImpacts);
+  self.events.reserve(self.vehicles.size() * (CollisionStep::maxImpacts + 4));
   self.segments.reserve(512);
   return {id};
 }
 
 void Responder::removeBarrier(BarrierId barrier) {
-  Barrier& removed = registered(implementation_->barriers, barrier.value, "barrier");
+  const Barrier& removed = registered(implementation_->barriers, barrier.value, "barrier");
   for (const std::unique_ptr<Vehicle>& vehicle : implementation_->vehicles) {
-    if (vehicle != nullptr) std::erase(vehicle->brokenThrough, &removed);
+    if (vehicle == nullptr) continue;
+    for (VehicleMemory* memory : {&vehicle->memory, &vehicle->memoryBefore}) {
+      const auto isOfIt = [&](const auto& each) { return each.barrier == barrier; };
+      std::erase_if(memory->passages, isOfIt);
+      std::erase_if(memory->contacts, isOfIt);
+    }
   }
-  implementation_->barrierOfGeom.erase(removed.mesh.geom());
+  implementation_->barrierOfGeom.erase(removed.geom());
   implementation_->barriers[static_cast<std::size_t>(barrier.value)].reset();
 }
 
@@ -225,24 +245,25 @@ void Responder::removeVehicle(VehicleId vehicle) {
 bool Responder::claims(dGeomID a, dGeomID b) const {
   const OwnedPair pair = implementation_->pairOf(a, b);
   // A mesh that holds ground too is sorted out contact by contact.
-  if (!pair || !pair.barrier->mesh.hasWallsOnly()) return false;
-  return pair.vehicle->query.allInBand(pair.vehicle->bodies.read(),
-                                       pair.barrier->mesh.highestFoot(),
-                                       pair.barrier->mesh.lowestTop());
+  if (!pair || !pair.barrier->hasWallsOnly()) return false;
+  return pair.vehicle->query.allInBand(pair.vehicle->bodies.read(), pair.barrier->highestFoot(),
+                                       pair.barrier->lowestTop());
 }
 
 int Responder::keepUnclaimed(dGeomID a, dGeomID b, dContact* contacts, int count) const {
   const OwnedPair pair = implementation_->pairOf(a, b);
   if (!pair) return count;
-  const BarrierMesh& mesh = pair.barrier->mesh;
+  const Barrier& barrier = *pair.barrier;
+  const bool isMesh = dGeomGetClass(barrier.geom()) == dTriMeshClass;
   const VehicleState state = pair.vehicle->bodies.read();
   const auto isOurs = [&](const dContact& contact) {
-    const int triangle = contact.geom.g1 == mesh.geom() ? contact.geom.side1 : contact.geom.side2;
+    const int triangle =
+        contact.geom.g1 == barrier.geom() ? contact.geom.side1 : contact.geom.side2;
     const Eigen::Vector3d place = toVector(contact.geom.pos);
     const WallQuery& query = pair.vehicle->query;
     // ODE numbers no triangle where two trimeshes meet along their edges.
-    if (triangle < 0) return query.isAboveBottom(state, place);
-    const WallPart part = mesh.partOf(triangle);
+    if (isMesh && triangle < 0) return query.isAboveBottom(state, place);
+    const WallPart part = barrier.partAt(triangle, toVector(contact.geom.normal));
     if (part.kind == WallPart::Kind::none) return false;
     if (!query.inBand(state, place, part.foot, part.top)) return false;
     // A cap is the wall's for a vehicle that stands before the wall, and ground for the wheels of
@@ -250,6 +271,62 @@ int Responder::keepUnclaimed(dGeomID a, dGeomID b, dContact* contacts, int count
     return part.kind == WallPart::Kind::face || query.isAboveBottom(state, place);
   };
   return static_cast<int>(std::remove_if(contacts, contacts + count, isOurs) - contacts);
+}
+
+Eigen::Vector3d Responder::velocity(VehicleId vehicle) const {
+  const Vehicle& self = registered(implementation_->vehicles, vehicle.value, "vehicle");
+  const VehicleState state = self.bodies.read();
+  const Eigen::Vector3d pending =
+      self.memory.delivery.axes.leftCols<2>() * self.memory.pulse.pending().linear;
+  return state.velocity + pending / state.mass;
+}
+
+double Responder::yawRate(VehicleId vehicle) const {
+  const Vehicle& self = registered(implementation_->vehicles, vehicle.value, "vehicle");
+  const VehicleState state = self.bodies.read();
+  return state.yawRate + self.memory.pulse.pending().angular / state.yawInertia;
+}
+
+SavedState Responder::save() const {
+  SavedState saved;
+  saved.time = implementation_->time;
+  for (const std::unique_ptr<Vehicle>& vehicle : implementation_->vehicles) {
+    if (vehicle != nullptr) saved.vehicles.push_back(vehicle->memory);
+  }
+  return saved;
+}
+
+void Responder::restore(const SavedState& state) {
+  Implementation& self = *implementation_;
+  const auto present = std::count_if(self.vehicles.begin(), self.vehicles.end(),
+                                     [](const auto& vehicle) { return vehicle != nullptr; });
+  if (static_cast<std::size_t>(present) != state.vehicles.size()) {
+    throw Error("restore: the saved state is of " + std::to_string(state.vehicles.size()) +
+                " vehicles, but " + std::to_string(present) + " are registered");
+  }
+  for (const VehicleMemory& memory : state.vehicles) {
+    registered(self.vehicles, memory.vehicle.value, "vehicle");
+    for (const Passage& passage : memory.passages) {
+      const Barrier& barrier = registered(self.barriers, passage.barrier.value, "barrier");
+      if (passage.settings < 0 || passage.settings >= barrier.settingsCount()) {
+        throw Error("restore: barrier '" + barrier.name() + "' has no settings number " +
+                    std::to_string(passage.settings));
+      }
+    }
+    for (const SustainedContact& contact : memory.contacts) {
+      const Barrier& barrier = registered(self.barriers, contact.barrier.value, "barrier");
+      if (contact.wall < 0 || contact.wall >= barrier.wallCount()) {
+        throw Error("restore: barrier '" + barrier.name() + "' has no wall number " +
+                    std::to_string(contact.wall));
+      }
+    }
+  }
+  for (const VehicleMemory& memory : state.vehicles) {
+    Vehicle& vehicle = *self.vehicles[static_cast<std::size_t>(memory.vehicle.value)];
+    vehicle.memory = memory;
+    vehicle.memoryBefore = memory;
+  }
+  self.time = state.time;
 }
 
 double Responder::time() const { return implementation_->time; }

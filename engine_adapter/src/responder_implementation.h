@@ -4,13 +4,12 @@
 
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "barrier_mesh.h"
+#include "barrier.h"
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/response/collision_step.h"
 #include "vehicle_bodies.h"
@@ -18,53 +17,27 @@
 
 namespace bumper {
 
-struct Barrier {
-  template <typename Source>
-  Barrier(const Source& source, const BarrierOptions& options, std::string name,
-          BarrierMesh::Query query, const ResponseSettings& usual)
-      : mesh(source, options, std::move(name), query),
-        own(options.response),
-        settings(own ? &*own : &usual) {}
-
-  BarrierMesh mesh;
-  std::optional<ResponseSettings> own;
-  /// Its own or the responder's: barriers with the same settings form one wall where they meet.
-  const ResponseSettings* settings;
-};
-
-/// Learns what acts on a vehicle besides the forces that are known before a step, joints above all:
-/// the difference between the last step's outcome and what it should have been.
-class UnknownForces {
- public:
-  /// Adds the last step's unknown accelerations to the state's; they rarely change within a step.
-  void foresee(VehicleState& state) const;
-  /// What the coming step should do by the known forces and the impulse in the vehicle's frame.
-  void expect(const VehicleState& known, const PlanarImpulse& impulse, double h);
-  /// The vehicle's motion is no longer its own.
-  void forget() { step_ = 0.0; }
-
- private:
-  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
-  double yawRate_ = 0.0;
-  double step_ = 0.0;  // 0: nothing is expected
-};
-
 struct Vehicle {
-  Vehicle(const VehicleParameters& itsParameters, const Band& band, double tiltLimit,
+  Vehicle(VehicleId id, const VehicleParameters& itsParameters, const Band& band, double tiltLimit,
           std::string itsName, VehicleBodies itsBodies)
       : parameters(itsParameters),
         name(std::move(itsName)),
         bodies(std::move(itsBodies)),
         query(itsParameters, band),
-        minUprightness(std::cos(tiltLimit)) {}
+        minUprightness(std::cos(tiltLimit)) {
+    memory.vehicle = id;
+    memory.passages.reserve(4);
+    memory.contacts.reserve(4);
+    memoryBefore = memory;
+  }
 
   VehicleParameters parameters;
   std::string name;
   VehicleBodies bodies;
   WallQuery query;
   double minUprightness;
-  UnknownForces unknown;
-  std::vector<const Barrier*> brokenThrough;  // and not left yet
+  VehicleMemory memory;
+  VehicleMemory memoryBefore;  // as it was before the last step()
   unsigned issues = step_issue::none;
 
   /// False also where the rotation is not finite.
@@ -90,6 +63,7 @@ struct Responder::Implementation {
   std::vector<std::string> warnings;
 
   double time = 0.0;
+  double lastStep = 0.0;
   unsigned issues = step_issue::none;
   std::vector<ImpactEvent> events;
 
@@ -101,13 +75,18 @@ struct Responder::Implementation {
   /// The pair in either order, if Bumper may own contacts of it.
   [[nodiscard]] OwnedPair pairOf(dGeomID a, dGeomID b) const;
 
+  void reconsiderLastStep();
   void stepVehicle(Vehicle& vehicle, double h);
-  void appendSegments(Vehicle& vehicle, const VehicleState& state, double reach,
-                      const Barrier& barrier, int firstId);
-  PlanarImpulse impulseOfCuts(Vehicle& vehicle, const VehicleState& state, double h);
-  PlanarImpulse impulseOfContacts(Vehicle& vehicle, const VehicleState& state, double h);
-  void report(const Vehicle& vehicle, const VehicleState& state, const Barrier& barrier, int wall,
-              const Impact& impact, const ImpactResponse& response);
+  void collectWalls(Vehicle& vehicle, const VehicleState& state, const PlanarMotion& motion,
+                    double h);
+  void leaveOutPassages(Vehicle& vehicle);
+  void answerCuts(Vehicle& vehicle, const VehicleState& state, const PlanarMotion& motion,
+                  double h);
+  void answerContacts(Vehicle& vehicle, const VehicleState& state, PlanarMotion motion, double h);
+  void give(Vehicle& vehicle, const VehicleState& state, double h);
+  void report(Vehicle& vehicle, const VehicleState& state, const Barrier& barrier, int wall,
+              double start, const Impact& impact, const ImpactResponse& response);
+  void endContacts(Vehicle& vehicle);
 };
 
 }  // namespace bumper

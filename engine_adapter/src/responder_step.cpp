@@ -1,20 +1,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pulse_delivery.h"
 #include "responder_implementation.h"
+#include "sustained_contacts.h"
 
 namespace bumper {
 
 namespace {
 
-// The vehicle in its own frame, with the velocity that it would have at the step's end without
-// walls; the paper takes the velocity as it is.
-PlanarMotion motionOf(const VehicleState& state, Method method, double h) {
+// A contact that begins more slowly than this, m/s, is rounding's.
+constexpr double noticedSpeed = 1e-6;
+
+// The vehicle in its own frame, with the velocity that it has in this step without walls: ODE moves
+// it with the velocity that the forces lead to. The paper takes the velocity as it is.
+PlanarMotion motionOf(const VehicleState& state, const ForcePulse& pulse, Method method, double h) {
   const double ahead = method == Method::paper ? 0.0 : h;
+  const PlanarImpulse due = pulse.due(h);
   const Eigen::Vector3d velocity = state.velocity + ahead * state.acceleration;
   PlanarMotion motion;
-  motion.velocity = (state.axes.transpose() * velocity).head<2>();
-  motion.yawRate = state.yawRate + ahead * state.yawAcceleration;
+  motion.velocity = (state.axes.transpose() * velocity).head<2>() + due.linear / state.mass;
+  motion.yawRate = state.yawRate + ahead * state.yawAcceleration + due.angular / state.yawInertia;
   return motion;
 }
 
@@ -25,15 +31,16 @@ VehicleParameters withMassOf(VehicleParameters parameters, const VehicleState& s
   return parameters;
 }
 
-}  // namespace
-
-void UnknownForces::foresee(VehicleState& state) const {
+// What acts on a vehicle besides the forces that are known before a step, joints above all, is the
+// difference between the last step's outcome and what it should have been. It rarely changes from
+// step to step: the coming step's is foreseen to be the same.
+void foresee(const Expectation& expected, VehicleState& state) {
   // More than tyres can do was a blow or a teleport, and is over.
   constexpr double mostAcceleration = 15.0;     // m/s²
   constexpr double mostYawAcceleration = 15.0;  // rad/s²
-  if (step_ <= 0.0) return;
-  const Eigen::Vector3d acceleration = (state.velocity - velocity_) / step_;
-  const double yawAcceleration = (state.yawRate - yawRate_) / step_;
+  if (expected.step <= 0.0) return;
+  const Eigen::Vector3d acceleration = (state.velocity - expected.velocity) / expected.step;
+  const double yawAcceleration = (state.yawRate - expected.yawRate) / expected.step;
   if (acceleration.norm() > mostAcceleration || std::abs(yawAcceleration) > mostYawAcceleration) {
     return;
   }
@@ -41,25 +48,71 @@ void UnknownForces::foresee(VehicleState& state) const {
   state.yawAcceleration += yawAcceleration;
 }
 
-void UnknownForces::expect(const VehicleState& known, const PlanarImpulse& impulse, double h) {
-  velocity_ = known.velocity + h * known.acceleration + known.toWorld(impulse.linear) / known.mass;
-  yawRate_ = known.yawRate + h * known.yawAcceleration + impulse.angular / known.yawInertia;
-  step_ = h;
+// What the coming step should do by the known forces and the impulse that is given.
+Expectation expect(const VehicleState& known, const PlanarImpulse& impulse, double h) {
+  return {.velocity =
+              known.velocity + h * known.acceleration + known.toWorld(impulse.linear) / known.mass,
+          .yawRate = known.yawRate + h * known.yawAcceleration + impulse.angular / known.yawInertia,
+          .step = h};
 }
 
-void Responder::Implementation::report(const Vehicle& vehicle, const VehicleState& state,
-                                       const Barrier& barrier, int wall, const Impact& impact,
-                                       const ImpactResponse& response) {
-  if (response.approachSpeed <= barrier.settings->restSpeed) return;
+// By how much the vehicle's axes have turned in its yaw plane, rad.
+double turnSince(const Eigen::Matrix3d& before, const Eigen::Matrix3d& now) {
+  return std::atan2(before.col(1).dot(now.col(0)), before.col(0).dot(now.col(0)));
+}
+
+}  // namespace
+
+// Puts right what the world's last step did not do as it was told.
+void Responder::Implementation::reconsiderLastStep() {
+  bool repeated = false;
+  for (const std::unique_ptr<Vehicle>& each : vehicles) {
+    if (each == nullptr || !each->memory.delivery.any) continue;
+    Vehicle& vehicle = *each;
+    VehicleMemory& memory = vehicle.memory;
+    double worldStep = 0.0;
+    switch (lookBack(memory.delivery, vehicle.bodies.chassis(), worldStep)) {
+      case LastStep::as_told:
+        break;
+      case LastStep::not_taken:
+        takeBack(vehicle.bodies, vehicle.bodies.read(), options.delivery, memory.delivery);
+        memory = vehicle.memoryBefore;
+        vehicle.issues |= step_issue::repeated_step;
+        repeated = true;
+        break;
+      case LastStep::other_size: {
+        const double missing = 1.0 - worldStep / memory.delivery.step;
+        if (options.delivery == Delivery::force_pulse) {
+          memory.pulse.owe({.linear = missing * memory.delivery.impulse.linear,
+                            .angular = missing * memory.delivery.impulse.angular});
+        }
+        memory.expectation = {};
+        vehicle.issues |= step_issue::other_step_size;
+        break;
+      }
+      case LastStep::moved_since:
+        memory.pulse.drop();
+        memory.expectation = {};
+        vehicle.issues |= step_issue::moved;
+        break;
+    }
+    memory.delivery.any = false;
+  }
+  if (repeated) time -= lastStep;
+}
+
+void Responder::Implementation::report(Vehicle& vehicle, const VehicleState& state,
+                                       const Barrier& barrier, int wall, double start,
+                                       const Impact& impact, const ImpactResponse& response) {
   ImpactEvent event;
-  event.time = time;
+  event.time = time + start;
   event.vehicle = vehicle.name;
-  event.barrier = barrier.mesh.name();
-  event.triangle = barrier.mesh.walls()[static_cast<std::size_t>(wall)].triangle;
-  event.material = barrier.mesh.materialOf(wall);
+  event.barrier = barrier.name();
+  event.triangle = barrier.triangleOf(wall);
+  event.material = barrier.materialOf(wall);
   event.contact = state.massCentre + state.toWorld(impact.point);
   event.normal = state.toWorld(impact.normal);
-  event.arm = impact.arm;
+  event.arm = rotated(impact.arm, -response.before.yaw);
   event.law = response.law;
   event.angles = response.angles;
   event.approachSpeed = response.approachSpeed;
@@ -78,109 +131,192 @@ void Responder::Implementation::report(const Vehicle& vehicle, const VehicleStat
       state.toWorld(response.after.velocity) + state.up().dot(state.velocity) * state.up();
   event.energyAsked = response.energyAsked;
   event.energyRatio = response.energyRatio;
+  event.energyLost = -response.contact.energyChange;
   event.outcome = response.outcome;
   event.regime = response.contact.regime;
-  events.push_back(event);
-}
 
-// A barrier that the vehicle breaks through is ignored until the outline has left it.
-void Responder::Implementation::appendSegments(Vehicle& vehicle, const VehicleState& state,
-                                               double reach, const Barrier& barrier, int firstId) {
-  const std::size_t before = segments.size();
-  vehicle.query.append(barrier.mesh, state, reach, *barrier.settings, firstId, segments);
-  std::vector<const Barrier*>& broken = vehicle.brokenThrough;
-  const auto mark = std::find(broken.begin(), broken.end(), &barrier);
-  if (mark == broken.end()) return;
-  const auto first = segments.begin() + static_cast<std::ptrdiff_t>(before);
-  const bool inside = std::any_of(first, segments.end(), [&](const WallSegment& wall) {
-    return findOverlap(vehicle.query.outline(), Vector2::Zero(), 0.0, wall).has_value();
-  });
-  if (inside) {
-    segments.resize(before);
-  } else {
-    broken.erase(mark);
+  const ResponseSettings& settings = barrier.settings(barrier.settingsNumberOf(wall));
+  const double soft = isInContact(vehicle.memory.contacts, barrier.id())
+                          ? impactInContact * settings.restSpeed
+                          : settings.restSpeed;
+  const bool hard = response.approachSpeed > soft;
+  const bool begins = addToContact(vehicle.memory.contacts,
+                                   {.barrier = barrier.id(),
+                                    .wall = wall,
+                                    .impulseNormal = event.impulseNormal,
+                                    .impulseTangent = event.impulseTangent,
+                                    .energyLost = event.energyLost,
+                                    .contact = event.contact,
+                                    .normal = event.normal},
+                                   event.time, !hard && response.approachSpeed > noticedSpeed);
+  if (hard || begins) {
+    event.phase = hard ? EventPhase::impact : EventPhase::contact_begin;
+    events.push_back(event);
   }
 }
 
-PlanarImpulse Responder::Implementation::impulseOfCuts(Vehicle& vehicle, const VehicleState& state,
-                                                       double h) {
-  const PlanarMotion motion = motionOf(state, options.response.method, h);
-  const double speed = motion.velocity.norm() + std::abs(motion.yawRate) * vehicle.query.radius();
+void Responder::Implementation::endContacts(Vehicle& vehicle) {
+  std::erase_if(vehicle.memory.contacts, [&](const SustainedContact& contact) {
+    if (time - contact.last < contactPause) return false;
+    const Barrier& barrier = *barriers[static_cast<std::size_t>(contact.barrier.value)];
+    ImpactEvent event;
+    event.time = contact.last;
+    event.phase = EventPhase::contact_end;
+    event.vehicle = vehicle.name;
+    event.barrier = barrier.name();
+    event.triangle = barrier.triangleOf(contact.wall);
+    event.material = barrier.materialOf(contact.wall);
+    event.contact = contact.contact;
+    event.normal = contact.normal;
+    event.impulseNormal = contact.impulseNormal;
+    event.impulseTangent = contact.impulseTangent;
+    event.energyLost = contact.energyLost;
+    event.duration = contact.last - contact.begun;
+    events.push_back(event);
+    return true;
+  });
+}
+
+// Walls that broke are left out until the outline has left them, and those whose long force pulse
+// runs until it ends.
+void Responder::Implementation::leaveOutPassages(Vehicle& vehicle) {
+  std::erase_if(vehicle.memory.passages, [&](const Passage& passage) {
+    const Barrier& barrier = *barriers[static_cast<std::size_t>(passage.barrier.value)];
+    const ResponseSettings* settings = &barrier.settings(passage.settings);
+    const auto isOfIt = [&](const WallSegment& wall) {
+      return wall.group == passage.barrier.value && wall.settings == settings;
+    };
+    const bool goesOn =
+        passage.until > 0.0
+            ? time < passage.until
+            : std::any_of(segments.begin(), segments.end(), [&](const WallSegment& wall) {
+                return isOfIt(wall) &&
+                       findTouch(vehicle.query.outline(), Vector2::Zero(), 0.0, wall).has_value();
+              });
+    if (goesOn) std::erase_if(segments, isOfIt);
+    return !goesOn;
+  });
+}
+
+void Responder::Implementation::collectWalls(Vehicle& vehicle, const VehicleState& state,
+                                             const PlanarMotion& motion, double h) {
+  const VehicleParameters parameters = withMassOf(vehicle.parameters, state);
   segments.clear();
   firstIds.clear();
   int nextId = 0;
   for (const std::unique_ptr<Barrier>& barrier : barriers) {
     firstIds.push_back(nextId);
     if (barrier == nullptr) continue;
-    appendSegments(vehicle, state, speed * barrier->settings->penetrationTime, *barrier, nextId);
-    nextId += static_cast<int>(barrier->mesh.walls().size());
+    const double reach =
+        CollisionStep::reach(parameters, motion, barrier->longestPenetrationTime(), h);
+    vehicle.query.append(*barrier, state, reach, nextId, segments);
+    nextId += barrier->wallCount();
   }
-  if (segments.empty()) return {};
+}
 
-  const StepOutcome outcome = collision.resolve(
-      withMassOf(vehicle.parameters, state), motionOf(state, options.response.method, h), segments);
+void Responder::Implementation::answerCuts(Vehicle& vehicle, const VehicleState& state,
+                                           const PlanarMotion& motion, double h) {
+  const StepOutcome outcome =
+      collision.resolve(withMassOf(vehicle.parameters, state), motion, segments, h);
   if (!outcome.settled) vehicle.issues |= step_issue::unsettled;
+  ForcePulse& pulse = vehicle.memory.pulse;
+  pulse.shift({.linear = state.mass * outcome.shift.velocity,
+               .angular = state.yawInertia * outcome.shift.yawRate});
   for (const StepImpact& each : outcome.impacts) {
     // The last barrier that starts at or before the wall's number, and is still there.
     std::size_t owner = firstIds.size() - 1;
     while (firstIds[owner] > each.impact.wall || barriers[owner] == nullptr) --owner;
-    report(vehicle, state, *barriers[owner], each.impact.wall - firstIds[owner], each.impact,
-           each.response);
-    if (each.response.brokeThrough) vehicle.brokenThrough.push_back(barriers[owner].get());
+    const Barrier& barrier = *barriers[owner];
+    const int wall = each.impact.wall - firstIds[owner];
+    const int number = barrier.settingsNumberOf(wall);
+    const double contactTime = barrier.settings(number).contactTime;
+    if (contactTime > 0.0) {
+      pulse.addLong(each.response.impulse, each.time, contactTime);
+      vehicle.memory.passages.push_back(
+          {.barrier = barrier.id(), .settings = number, .until = time + each.time + contactTime});
+    } else {
+      pulse.add(each.response.impulse, each.time, h);
+    }
+    if (each.response.brokeThrough) {
+      vehicle.memory.passages.push_back({.barrier = barrier.id(), .settings = number});
+    }
+    report(vehicle, state, barrier, wall, each.time, each.impact, each.response);
   }
-  return outcome.impulse;
 }
 
-PlanarImpulse Responder::Implementation::impulseOfContacts(Vehicle& vehicle,
-                                                           const VehicleState& state, double h) {
-  PlanarImpulse sum;
-  PlanarMotion motion = motionOf(state, options.response.method, h);
+void Responder::Implementation::answerContacts(Vehicle& vehicle, const VehicleState& state,
+                                               PlanarMotion motion, double h) {
   for (const std::unique_ptr<Barrier>& barrier : barriers) {
-    if (barrier == nullptr) continue;
-    const std::optional<Impact> impact = vehicle.query.meanOfContacts(barrier->mesh, state);
+    if (barrier == nullptr || barrier->mesh() == nullptr) continue;
+    const std::optional<Impact> impact = vehicle.query.meanOfContacts(*barrier->mesh(), state);
     if (!impact || -velocityAt(motion, impact->arm).dot(impact->normal) <= 0.0) continue;
     const ImpactResponse response =
-        respond(*impact, motion, state.mass, state.yawInertia, *barrier->settings);
-    report(vehicle, state, *barrier, impact->wall, *impact, response);
-    sum += response.impulse;
+        respond(*impact, motion, state.mass, state.yawInertia,
+                barrier->settings(barrier->settingsNumberOf(impact->wall)));
+    vehicle.memory.pulse.add(response.impulse, 0.0, h);
+    report(vehicle, state, *barrier, impact->wall, 0.0, *impact, response);
     motion = response.after;
   }
-  return sum;
+}
+
+// Hands over what of the force pulses falls into the coming step.
+void Responder::Implementation::give(Vehicle& vehicle, const VehicleState& state, double h) {
+  VehicleMemory& memory = vehicle.memory;
+  const PlanarForce force = memory.pulse.take(h);
+  const PlanarImpulse impulse{.linear = h * force.force, .angular = h * force.yawMoment};
+  if (!impulse.linear.allFinite() || !std::isfinite(impulse.angular)) {
+    memory.pulse.drop();
+    vehicle.issues |= step_issue::not_finite;
+    return;
+  }
+  deliver(vehicle.bodies, state, impulse, h, options.delivery, memory.delivery);
 }
 
 void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
+  VehicleMemory& memory = vehicle.memory;
+  if (!memory.contacts.empty()) endContacts(vehicle);
   if (vehicle.bodies.areAsleep()) {
-    vehicle.unknown.forget();
+    memory.expectation = {};
     return;
   }
   const VehicleState known = vehicle.bodies.read();
   if (!known.isFinite()) {
     vehicle.issues |= step_issue::not_finite;
-    vehicle.unknown.forget();
+    memory.pulse.drop();
+    memory.expectation = {};
     return;
   }
-  if (!vehicle.isUpright()) {
-    vehicle.issues |= step_issue::tilted;
-    vehicle.unknown.forget();
-    return;
+  if (!memory.pulse.isEmpty()) {
+    memory.pulse.turnFrame(turnSince(memory.delivery.axes, known.axes));
   }
+  const bool upright = vehicle.isUpright();
+  const bool exact = options.contactSource == ContactSource::exact_cut;
   VehicleState state = known;
-  vehicle.unknown.foresee(state);
-  const PlanarImpulse impulse = options.contactSource == ContactSource::exact_cut
-                                    ? impulseOfCuts(vehicle, state, h)
-                                    : impulseOfContacts(vehicle, state, h);
-  vehicle.unknown.expect(known, impulse, h);
-  if (impulse.linear.isZero(0.0) && impulse.angular == 0.0) return;
-
-  // The whole pulse lies in this step, because an impact is noticed when a step begins.
-  ForcePulse pulse;
-  pulse.add(impulse, 0.0, h);
-  const PlanarForce force = pulse.take(h);
-  if (!force.force.allFinite() || !std::isfinite(force.yawMoment)) {
-    vehicle.issues |= step_issue::not_finite;
+  PlanarMotion motion;
+  segments.clear();
+  if (upright) {
+    foresee(memory.expectation, state);
+    motion = motionOf(state, memory.pulse, options.response.method, h);
+    if (exact) collectWalls(vehicle, state, motion, h);
+  } else {
+    vehicle.issues |= step_issue::tilted;
+  }
+  const bool near = upright && (!exact || !segments.empty());
+  if (!near && memory.pulse.isEmpty()) {
+    memory.expectation = {};
+    memory.passages.clear();
     return;
   }
-  vehicle.bodies.push(state, force);
+  vehicle.memoryBefore = memory;
+  if (exact) {
+    leaveOutPassages(vehicle);
+    if (!segments.empty()) answerCuts(vehicle, state, motion, h);
+  } else if (near) {
+    answerContacts(vehicle, state, motion, h);
+  }
+  give(vehicle, known, h);
+  memory.expectation =
+      near && memory.delivery.any ? expect(known, memory.delivery.impulse, h) : Expectation{};
 }
 
 std::span<const ImpactEvent> Responder::step(double h) {
@@ -195,12 +331,14 @@ std::span<const ImpactEvent> Responder::step(double h) {
     return {};
   }
   if (h == 0.0) return {};
+  self.reconsiderLastStep();
   for (const std::unique_ptr<Vehicle>& vehicle : self.vehicles) {
     if (vehicle == nullptr) continue;
     self.stepVehicle(*vehicle, h);
     self.issues |= vehicle->issues;
   }
   self.time += h;
+  self.lastStep = h;
   return self.events;
 }
 

@@ -83,6 +83,20 @@ void VehicleBodies::push(const VehicleState& state, const PlanarForce& force) co
   }
 }
 
+void VehicleBodies::kick(const VehicleState& state, const PlanarImpulse& impulse) const {
+  const Eigen::Vector3d change = state.toWorld(impulse.linear) / state.mass;
+  const Eigen::Vector3d turning = impulse.angular / state.yawInertia * state.up();
+  for (dBodyID body : bodies_) {
+    const Eigen::Vector3d arm = toVector(dBodyGetPosition(body)) - state.massCentre;
+    const Eigen::Vector3d velocity =
+        toVector(dBodyGetLinearVel(body)) + change + turning.cross(arm);
+    const Eigen::Vector3d angular = toVector(dBodyGetAngularVel(body)) + turning;
+    if (dBodyIsEnabled(body) == 0) dBodyEnable(body);
+    dBodySetLinearVel(body, velocity.x(), velocity.y(), velocity.z());
+    dBodySetAngularVel(body, angular.x(), angular.y(), angular.z());
+  }
+}
+
 Band defaultBand(const VehicleParameters& vehicle) {
   return {.bottom = std::min(0.3, 0.5 * vehicle.massCentreHeight),
           .top = vehicle.massCentreHeight + 0.2};

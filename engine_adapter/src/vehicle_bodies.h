@@ -48,6 +48,9 @@ class VehicleBodies {
   /// load on the joints. `force` is in the yaw plane, in the vehicle's axes.
   void push(const VehicleState& state, const PlanarForce& force) const;
 
+  /// The same as changes of velocity, at once.
+  void kick(const VehicleState& state, const PlanarImpulse& impulse) const;
+
  private:
   std::vector<dBodyID> bodies_;
 };

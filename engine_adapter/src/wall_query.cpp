@@ -98,29 +98,38 @@ void WallQuery::placeBox(const VehicleState& state, double reach, double margin)
   dGeomSetRotation(box_, rotation);
 }
 
-void WallQuery::append(const BarrierMesh& barrier, const VehicleState& state, double reach,
-                       const ResponseSettings& settings, int firstId,
+void WallQuery::append(const Barrier& barrier, const VehicleState& state, double reach, int firstId,
                        std::vector<WallSegment>& segments) {
-  if (!barrier.reaches(state.massCentre, radius_ + reach)) return;
-  placeBox(state, reach, barrier.margin());
-  barrier.list(box_, near_);
-  for (const int index : near_) {
-    std::optional<WallSegment> segment =
-        cutWall(barrier.walls()[static_cast<std::size_t>(index)], state, low_, high_);
-    if (!segment) continue;
-    segment->id = firstId + index;
-    segment->settings = &settings;
+  const auto add = [&](std::optional<WallSegment> segment, int wall) {
+    if (!segment) return;
+    segment->id = firstId + wall;
+    segment->group = barrier.id().value;
+    segment->settings = &barrier.settings(barrier.settingsNumberOf(wall));
     segments.push_back(*segment);
+  };
+  if (const PrimitiveWall* primitive = barrier.primitive()) {
+    add(primitive->cut(state, low_, high_, radius_ + reach), 0);
+    return;
+  }
+  const BarrierMesh& mesh = *barrier.mesh();
+  if (!mesh.reaches(state.massCentre, radius_ + reach)) return;
+  placeBox(state, reach, mesh.margin());
+  mesh.list(box_, near_);
+  for (const int wall : near_) {
+    std::optional<WallSegment> segment =
+        cutWall(mesh.walls()[static_cast<std::size_t>(wall)], state, low_, high_);
+    if (segment) segment->solid = mesh.isSolid();
+    add(segment, wall);
   }
 }
 
-std::optional<Impact> WallQuery::meanOfContacts(const BarrierMesh& barrier,
+std::optional<Impact> WallQuery::meanOfContacts(const BarrierMesh& mesh,
                                                 const VehicleState& state) {
-  if (!barrier.reaches(state.massCentre, radius_)) return std::nullopt;
+  if (!mesh.reaches(state.massCentre, radius_)) return std::nullopt;
   constexpr int capacity = 64;
   std::array<dContactGeom, capacity> contacts;
   placeBox(state, 0.0, 0.0);
-  const int count = barrier.contacts(box_, contacts.data(), capacity);
+  const int count = mesh.contacts(box_, contacts.data(), capacity);
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double weight = 0.0;

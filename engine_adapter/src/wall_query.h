@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "barrier_mesh.h"
+#include "barrier.h"
 #include "bumper/response/contact_point.h"
 #include "bumper/response/impact.h"
 #include "vehicle_bodies.h"
@@ -25,17 +25,17 @@ class WallQuery {
   WallQuery& operator=(WallQuery&&) = delete;
 
   /// Appends the pieces of the barrier's walls at the outline enlarged by `reach` on every side, m,
-  /// cut to the band and laid into the yaw plane. A segment's id is `firstId` plus the wall's index
-  /// in the barrier.
-  void append(const BarrierMesh& barrier, const VehicleState& state, double reach,
-              const ResponseSettings& settings, int firstId, std::vector<WallSegment>& segments);
+  /// cut to the band and laid into the yaw plane. A segment's id is `firstId` plus the wall's
+  /// number in the barrier, its group the barrier's id.
+  void append(const Barrier& barrier, const VehicleState& state, double reach, int firstId,
+              std::vector<WallSegment>& segments);
 
   [[nodiscard]] const Outline& outline() const { return outline_; }
   /// Of a sphere around the mass centre that holds the outline over the band, m.
   [[nodiscard]] double radius() const { return radius_; }
 
   /// The impact that ODE's own contacts make of the situation: their depth-weighted mean.
-  std::optional<Impact> meanOfContacts(const BarrierMesh& barrier, const VehicleState& state);
+  std::optional<Impact> meanOfContacts(const BarrierMesh& mesh, const VehicleState& state);
 
   /// Whether a wall that stands between the heights foot and top at a place of the world reaches
   /// into the band.

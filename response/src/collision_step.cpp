@@ -1,30 +1,51 @@
 #include "bumper/response/collision_step.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <tuple>
+
+#include "simultaneous_contacts.h"
 
 namespace bumper {
 
 namespace {
 
-// Pieces of one wall meet within this, m, and their normals within this sine.
-constexpr double mergeDistance = 1e-3;
-constexpr double mergeOffset = 1e-4;
+// Pieces of one wall lie in one line within these. A crack between them no wider than that is
+// bridged: nothing of a vehicle fits into it.
+constexpr double crackWidth = 0.1;    // m
+constexpr double mergeOffset = 1e-4;  // m
 constexpr double mergeSine = 1e-4;
 
 // Walls whose normals differ by less than this sine, 5°, and whose ends meet are hit as one.
 constexpr double chainSine = 0.087;
+constexpr double jointWidth = 1e-3;  // m
 
-// A contact that approaches more slowly than this, m/s, is at rest to rounding.
-constexpr double restTolerance = 1e-9;
+// Nothing moves so deep into a wall, m; an outline that is was put there, and nothing is known of
+// how it came in.
+constexpr double standsInDepth = 0.01;
 
-// From this many impacts in one step on, none rebounds, so that they come to an end.
-constexpr std::size_t plasticAfter = 8;
+// From this many impacts at one instant on, none rebounds; from the next many on they are solved
+// together. Towards the end of what one step allows none rebounds either.
+constexpr int plasticAfter = 8;
+constexpr int togetherAfter = 16;
+constexpr std::size_t plasticInStepAfter = 24;
+
+// Part of a depth that is eased out in a step, and what is left in peace, m.
+constexpr double easeOutShare = 0.2;
+constexpr double easeOutDepth = 1e-4;
+
+// Part of a step after which a touch without effect, or one that slides, is looked at again.
+constexpr double lookAgain = 0.01;
+constexpr double slidingPause = 0.125;
 
 WallSegment oriented(const WallSegment& wall, const Vector2& centre) {
   WallSegment result = wall;
+  if (wall.isPost()) {
+    result.normal = Vector2::Zero();
+    return result;
+  }
   result.normal = lineOf(wall, centre).normal;
   const Vector2 tangent = turnedLeft(result.normal);
   if (tangent.dot(wall.start) > tangent.dot(wall.end)) std::swap(result.start, result.end);
@@ -33,37 +54,53 @@ WallSegment oriented(const WallSegment& wall, const Vector2& centre) {
 
 bool continues(const WallSegment& wall, const WallSegment& piece) {
   if (wall.settings != piece.settings) return false;
+  const bool breaks =
+      wall.settings->law == Law::energy && wall.settings->energyRoot == EnergyRoot::break_through;
+  if (breaks && wall.group != piece.group) return false;
+  if (wall.isPost() || piece.isPost() || wall.solid != piece.solid) return false;
   if (std::abs(cross(wall.normal, piece.normal)) > mergeSine) return false;
   if (wall.normal.dot(piece.normal) < 0.0) return false;
   if (std::abs(wall.normal.dot(piece.start - wall.start)) > mergeOffset) return false;
   if (std::abs(wall.normal.dot(piece.end - wall.start)) > mergeOffset) return false;
   const Vector2 tangent = turnedLeft(wall.normal);
-  return tangent.dot(piece.start - wall.end) <= mergeDistance &&
-         tangent.dot(wall.start - piece.end) <= mergeDistance;
-}
-
-// The piece of wall at a place on a merged line, for its number.
-int wallAt(std::span<const WallSegment> walls, const Overlap& overlap, const Vector2& point) {
-  int nearest = -1;
-  double best = std::numeric_limits<double>::infinity();
-  for (const WallSegment& wall : walls) {
-    if (std::abs(cross(wall.normal, overlap.normal)) > mergeSine) continue;
-    const Vector2 along = wall.end - wall.start;
-    const double length2 = along.squaredNorm();
-    const double share =
-        length2 > 0.0 ? std::clamp((point - wall.start).dot(along) / length2, 0.0, 1.0) : 0.0;
-    const double distance = (point - wall.start - share * along).squaredNorm();
-    if (distance < best || (distance == best && wall.id < nearest)) {
-      best = distance;
-      nearest = wall.id;
-    }
-  }
-  return nearest;
+  return tangent.dot(piece.start - wall.end) <= crackWidth &&
+         tangent.dot(wall.start - piece.end) <= crackWidth;
 }
 
 }  // namespace
 
 CollisionStep::CollisionStep() { impacts_.reserve(maxImpacts); }
+
+double CollisionStep::reach(const VehicleParameters& vehicle, const PlanarMotion& motion,
+                            double penetrationTime, double h) {
+  // The fastest that a point of the outline can be with the energy there is.
+  const double radius = std::hypot(std::max(vehicle.massCentreToFront, vehicle.massCentreToRear),
+                                   0.5 * vehicle.width);
+  const double energy = yawPlaneEnergy(motion, vehicle.mass, vehicle.yawInertia);
+  const double fastest =
+      std::sqrt(2.0 * energy * (1.0 / vehicle.mass + radius * radius / vehicle.yawInertia));
+  return fastest * (h + penetrationTime) + maxEaseOut * h + 1e-6;
+}
+
+// The piece of wall at a place on a merged line, for its number.
+int CollisionStep::wallAt(const Wall& wall, const Vector2& point) const {
+  int nearest = -1;
+  double best = std::numeric_limits<double>::infinity();
+  for (const WallSegment& piece : given_) {
+    if (piece.isPost() != wall.segment.isPost()) continue;
+    if (std::abs(cross(piece.normal, wall.segment.normal)) > mergeSine) continue;
+    const Vector2 along = piece.end - piece.start;
+    const double length2 = along.squaredNorm();
+    const double share =
+        length2 > 0.0 ? std::clamp((point - piece.start).dot(along) / length2, 0.0, 1.0) : 0.0;
+    const double distance = (point - piece.start - share * along).squaredNorm();
+    if (distance < best || (distance == best && piece.id < nearest)) {
+      best = distance;
+      nearest = piece.id;
+    }
+  }
+  return nearest;
+}
 
 void CollisionStep::mergeWalls(std::span<const WallSegment> walls, const Vector2& centre) {
   merged_.clear();
@@ -91,23 +128,39 @@ void CollisionStep::mergeWalls(std::span<const WallSegment> walls, const Vector2
     if (tangent.dot(piece.end) > tangent.dot(wall->end)) wall->end = piece.end;
   }
   merged_.resize(kept);
+  walls_.clear();
+  for (const WallSegment& wall : merged_) walls_.push_back({.segment = wall});
+}
+
+// An end from which another wall leads further into the outline is no end that could be hit.
+bool CollisionStep::isShielded(const Overlap& end) const {
+  const Vector2 place = end.deepest * turnedLeft(end.normal) + end.offset * end.normal;
+  return std::any_of(walls_.begin(), walls_.end(), [&](const Wall& wall) {
+    const auto leadsIn = [&](const Vector2& from, const Vector2& to) {
+      return (from - place).norm() <= jointWidth &&
+             end.normal.dot(to - from) > mergeSine * (to - from).norm();
+    };
+    return leadsIn(wall.segment.start, wall.segment.end) ||
+           leadsIn(wall.segment.end, wall.segment.start);
+  });
+}
+
+std::optional<Overlap> CollisionStep::overlapWith(const WallSegment& wall) const {
+  const auto byFace = [&] { return findOverlap(outline_, motion_.position, motion_.yaw, wall); };
+  if (wall.settings->method == Method::paper) return byFace();
+  const std::optional<Overlap> touch = findTouch(outline_, motion_.position, motion_.yaw, wall);
+  if (!touch || wall.isPost()) return touch;
+  if (touch->depth > standsInDepth || (touch->byEnd && isShielded(*touch))) return byFace();
+  return touch;
 }
 
 void CollisionStep::findTouched() {
-  walls_.clear();
-  for (const WallSegment& merged : merged_) {
-    Wall wall{.overlap = lineOf(merged, motion_.position),
-              .settings = merged.settings,
-              .startPoint = merged.start,
-              .endPoint = merged.end,
-              .contact = {}};
-    const std::optional<Overlap> overlap =
-        findOverlap(outline_, motion_.position, motion_.yaw, merged);
-    if (overlap) {
-      wall.overlap = *overlap;
-      wall.touched = true;
-    }
-    walls_.push_back(wall);
+  for (Wall& wall : walls_) {
+    const std::optional<Overlap> overlap = overlapWith(wall.segment);
+    wall.touched = overlap.has_value();
+    wall.hidden = false;
+    wall.struck = false;
+    wall.overlap = overlap ? *overlap : lineOf(wall.segment, motion_.position);
   }
 }
 
@@ -116,17 +169,18 @@ CollisionStep::Approach CollisionStep::approach(const ContactPoint& contact,
   return {contact, normal, -velocityAt(motion_, contact.arm).dot(normal)};
 }
 
-// Of the point of first touch and the corners behind the wall: the first if it approaches, else the
-// fastest corner.
+// Of the point of first touch and what else touches: the first if it approaches, else the fastest.
 CollisionStep::Approach CollisionStep::touching(const Wall& wall) const {
   const Overlap& overlap = wall.overlap;
   Approach best =
-      approach(contactPoint(outline_, motion_.position, motion_.yaw, overlap, 0.0), overlap.normal);
+      approach(contactPoint(outline_, motion_.position, motion_.yaw, wall.segment, overlap, 0.0),
+               overlap.normal);
   if (best.speed > restTolerance) return best;
-  const ContactPoints corners = cornersBehind(outline_, motion_.position, motion_.yaw, overlap);
-  for (std::size_t k = 0; k < corners.count; ++k) {
-    const Approach corner = approach(corners.points[k], overlap.normal);
-    if (corner.speed > best.speed) best = corner;
+  const ContactPoints points =
+      touchingPoints(outline_, motion_.position, motion_.yaw, wall.segment, overlap);
+  for (std::size_t k = 0; k < points.count; ++k) {
+    const Approach point = approach(points.points[k], overlap.normal);
+    if (point.speed > best.speed) best = point;
   }
   return best;
 }
@@ -134,7 +188,7 @@ CollisionStep::Approach CollisionStep::touching(const Wall& wall) const {
 // How long ago the wall was touched, s; infinite for one that is not approached.
 double CollisionStep::sinceTouch(const Wall& wall) const {
   const double speed = touching(wall).speed;
-  return speed > restTolerance ? wall.overlap.depth / speed
+  return speed > restTolerance ? std::max(wall.overlap.depth - touchTolerance, 0.0) / speed
                                : std::numeric_limits<double>::infinity();
 }
 
@@ -143,18 +197,23 @@ double CollisionStep::sinceTouch(const Wall& wall) const {
 // quite flat is hit like a flat one.
 CollisionStep::Approach CollisionStep::middleOfChain(const Wall& struck, double penetration) const {
   const Overlap& first = struck.overlap;
+  const auto alone = [&] {
+    return approach(
+        contactPoint(outline_, motion_.position, motion_.yaw, struck.segment, first, penetration),
+        first.normal);
+  };
+  if (struck.segment.isPost()) return alone();
   const Vector2 moved =
       motion_.position + moveTo(first, motion_.position, penetration) * first.normal;
-  ContactPoint sum{.point = Vector2::Zero(), .arm = Vector2::Zero()};
+  Vector2 middle = Vector2::Zero();
   Vector2 normal = Vector2::Zero();
   double total = 0.0;
   const auto include = [&](const Wall& wall) {
-    const Interference inside = interference(outline_, moved, motion_.yaw, wall.overlap);
+    const Interference inside = interference(outline_, moved, motion_.yaw, wall.segment);
     const double bend = std::abs(cross(first.normal, wall.overlap.normal));
-    const double weight = inside.length * std::max(0.0, 1.0 - bend / chainSine);
+    const double weight = inside.length() * std::max(0.0, 1.0 - bend / chainSine);
     if (inside.empty || weight == 0.0) return;
-    sum.point += weight * inside.middle.point;
-    sum.arm += weight * inside.middle.arm;
+    middle += weight * inside.middle();
     normal += weight * wall.overlap.normal;
     total += weight;
   };
@@ -162,10 +221,10 @@ CollisionStep::Approach CollisionStep::middleOfChain(const Wall& struck, double 
   for (const bool forward : {true, false}) {
     const Wall* last = &struck;
     for (std::size_t length = 1; length < walls_.size(); ++length) {
-      const Vector2 joint = forward ? last->endPoint : last->startPoint;
+      const Vector2 joint = forward ? last->segment.end : last->segment.start;
       const auto next = std::find_if(walls_.begin(), walls_.end(), [&](const Wall& wall) {
-        return &wall != last && wall.settings == struck.settings &&
-               (joint - (forward ? wall.startPoint : wall.endPoint)).norm() <= mergeDistance &&
+        return &wall != last && wall.segment.settings == struck.segment.settings &&
+               (joint - (forward ? wall.segment.start : wall.segment.end)).norm() <= jointWidth &&
                first.normal.dot(wall.overlap.normal) > 0.0 &&
                std::abs(cross(first.normal, wall.overlap.normal)) < chainSine;
       });
@@ -174,11 +233,9 @@ CollisionStep::Approach CollisionStep::middleOfChain(const Wall& struck, double 
       last = &*next;
     }
   }
-  if (total == 0.0) {
-    return approach(contactPoint(outline_, motion_.position, motion_.yaw, first, penetration),
-                    first.normal);
-  }
-  return approach({.point = sum.point / total, .arm = sum.arm / total}, normal.normalized());
+  if (total == 0.0) return alone();
+  middle /= total;
+  return approach({.point = middle, .arm = middle - moved}, normal.normalized());
 }
 
 // What lies behind a wall that the outline is already in cannot be hit: its back, the ends of a
@@ -186,18 +243,19 @@ CollisionStep::Approach CollisionStep::middleOfChain(const Wall& struck, double 
 void CollisionStep::findHidden() {
   constexpr double tolerance = 1e-6;  // m
   const auto behind = [](const Overlap& wall, const Overlap& front) {
-    const Vector2 frontTangent = turnedLeft(front.normal);
-    const auto hiddenAt = [&](double place) {
-      const Vector2 point = place * turnedLeft(wall.normal) + wall.offset * wall.normal;
-      const double along = frontTangent.dot(point);
+    if (front.byEnd) return false;
+    const Vector2 tangent = turnedLeft(front.normal);
+    const auto hiddenAt = [&](const Vector2& point) {
+      const double along = tangent.dot(point);
       return front.normal.dot(point) <= front.offset + tolerance &&
              along >= front.start - tolerance && along <= front.end + tolerance;
     };
-    return hiddenAt(wall.a) && hiddenAt(wall.b);
+    return hiddenAt(wall.insideFrom) && hiddenAt(wall.insideTo);
   };
   const auto isHidden = [&](const Wall& wall) {
     return std::any_of(walls_.begin(), walls_.end(), [&](const Wall& other) {
-      if (&wall == &other || !other.touched || !behind(wall.overlap, other.overlap)) return false;
+      if (&wall == &other || !other.touched || other.passed) return false;
+      if (!behind(wall.overlap, other.overlap)) return false;
       if (!behind(other.overlap, wall.overlap)) return true;
       // Each behind the other: a convex corner. The vehicle came in over the one touched last.
       const double own = sinceTouch(wall);
@@ -206,7 +264,7 @@ void CollisionStep::findHidden() {
     });
   };
   // A wall hides others even if it is hidden itself.
-  for (Wall& wall : walls_) wall.hidden = wall.touched && isHidden(wall);
+  for (Wall& wall : walls_) wall.hidden = wall.touched && !wall.passed && isHidden(wall);
 }
 
 // Of the walls that have had no impulse yet the one that was touched the longest time ago.
@@ -214,17 +272,20 @@ CollisionStep::Next CollisionStep::firstNewWall() {
   Next next;
   double longest = -1.0;
   for (Wall& wall : walls_) {
-    if (!wall.touched || wall.hidden || wall.struck) continue;
-    const bool asPaper = wall.settings->method == Method::paper;
+    if (!wall.touched || wall.hidden || wall.struck || wall.passed) continue;
+    const bool asPaper = wall.segment.settings->method == Method::paper;
     // The paper's point is the middle of the overlap as it is.
-    const Approach first = asPaper ? approach(contactPoint(outline_, motion_.position, motion_.yaw,
-                                                           wall.overlap, wall.overlap.depth),
-                                              wall.overlap.normal)
-                                   : touching(wall);
-    if (first.speed <= restTolerance || wall.overlap.depth / first.speed <= longest) continue;
-    longest = wall.overlap.depth / first.speed;
+    const Approach first =
+        asPaper ? approach(contactPoint(outline_, motion_.position, motion_.yaw, wall.segment,
+                                        wall.overlap, wall.overlap.depth),
+                           wall.overlap.normal)
+                : touching(wall);
+    if (first.speed <= restTolerance) continue;
+    const double since = std::max(wall.overlap.depth - touchTolerance, 0.0) / first.speed;
+    if (since <= longest) continue;
+    longest = since;
     wall.contact =
-        asPaper ? first : middleOfChain(wall, first.speed * wall.settings->penetrationTime);
+        asPaper ? first : middleOfChain(wall, first.speed * wall.segment.settings->penetrationTime);
     next = {.wall = &wall, .at = wall.contact.speed > restTolerance ? wall.contact : first};
   }
   return next;
@@ -235,7 +296,7 @@ CollisionStep::Next CollisionStep::fastestStruckWall() {
   Next next;
   next.at.speed = restTolerance;
   for (Wall& wall : walls_) {
-    if (!wall.struck || wall.passed || wall.settings->method == Method::paper) continue;
+    if (!wall.struck || wall.passed) continue;
     for (const Approach& point :
          {touching(wall), approach(wall.contact.contact, wall.contact.normal)}) {
       if (point.speed > next.at.speed) next = {.wall = &wall, .at = point};
@@ -244,47 +305,151 @@ CollisionStep::Next CollisionStep::fastestStruckWall() {
   return next;
 }
 
-StepOutcome CollisionStep::resolve(const VehicleParameters& vehicle, const PlanarMotion& motion,
-                                   std::span<const WallSegment> walls) {
-  outline_ = Outline(vehicle);
-  motion_ = motion;
-  impacts_.clear();
-  StepOutcome outcome;
+void CollisionStep::record(const Wall& wall, const Approach& at, double time,
+                           const ImpactResponse& response) {
+  const Impact impact{.wall = wallAt(wall, at.contact.point),
+                      .point = at.contact.point,
+                      .normal = at.normal,
+                      .arm = at.contact.arm,
+                      .depth = std::max(wall.overlap.depth, 0.0)};
+  impacts_.push_back({time, impact, response});
+  motion_ = response.after;
+}
 
-  mergeWalls(walls, motion_.position);
-  findTouched();
-  findHidden();
-
-  while (true) {
-    Next next = firstNewWall();
-    if (next.wall == nullptr) next = fastestStruckWall();
-    if (next.wall == nullptr) break;
-    if (impacts_.size() == maxImpacts) {
-      outcome.settled = false;
-      break;
-    }
-    const ResponseSettings& settings = *next.wall->settings;
-    const Impact impact{.wall = wallAt(walls, next.wall->overlap, next.at.contact.point),
-                        .point = next.at.contact.point,
-                        .normal = next.at.normal,
-                        .arm = next.at.contact.arm,
-                        .depth = next.wall->overlap.depth};
-    const double rebound = impacts_.size() < plasticAfter ? 1.0 : 0.0;
-    const ImpactResponse response =
-        respond(impact, motion_, vehicle.mass, vehicle.yawInertia, settings, rebound);
-    impacts_.push_back({impact, response});
-    outcome.impulse += response.impulse;
-    motion_ = response.after;
-
-    next.wall->struck = true;
-    next.wall->passed = response.brokeThrough;
-    if (settings.method == Method::paper) {
-      // The paper answers one impact in a step.
-      for (Wall& wall : walls_) wall.struck |= wall.settings->method == Method::paper;
+void CollisionStep::answer(const Next& next, double time, double restitutionScale) {
+  Wall& wall = *next.wall;
+  const ResponseSettings& settings = *wall.segment.settings;
+  const ImpactResponse response =
+      respond({.normal = next.at.normal, .arm = next.at.contact.arm}, motion_, vehicle_.mass,
+              vehicle_.yawInertia, settings, restitutionScale);
+  record(wall, next.at, time, response);
+  wall.struck = true;
+  for (Wall& other : walls_) {
+    // The paper answers one impact in a step, and no more.
+    if (settings.method == Method::paper)
+      other.passed |= other.segment.settings->method == Method::paper;
+    if (response.brokeThrough) {
+      other.passed |= other.segment.group == wall.segment.group &&
+                      other.segment.settings == wall.segment.settings;
     }
   }
+}
+
+void CollisionStep::answerTogether(double time) {
+  std::array<TouchingPoint, mostTouchingPoints> points;
+  std::array<Next, mostTouchingPoints> owners;
+  std::size_t count = 0;
+  for (Wall& wall : walls_) {
+    if (!wall.touched || wall.hidden || wall.passed) continue;
+    const auto add = [&](const ContactPoint& contact) {
+      if (count == points.size()) return;
+      points[count] = {.normal = wall.overlap.normal, .arm = contact.arm};
+      owners[count++] = {.wall = &wall, .at = approach(contact, wall.overlap.normal)};
+    };
+    add(contactPoint(outline_, motion_.position, motion_.yaw, wall.segment, wall.overlap, 0.0));
+    const ContactPoints touching =
+        touchingPoints(outline_, motion_.position, motion_.yaw, wall.segment, wall.overlap);
+    for (std::size_t k = 0; k < touching.count; ++k) add(touching.points[k]);
+  }
+  const PlanarImpulse impulse =
+      endApproach(motion_, vehicle_.mass, vehicle_.yawInertia, std::span(points.data(), count));
+  // It is told as an impact with the wall that pushes most squarely.
+  const auto* main =
+      std::max_element(owners.data(), owners.data() + count, [&](const Next& a, const Next& b) {
+        return a.at.normal.dot(impulse.linear) < b.at.normal.dot(impulse.linear);
+      });
+  record(*main->wall, main->at, time,
+         plainResponse({.normal = main->at.normal, .arm = main->at.contact.arm}, motion_,
+                       vehicle_.mass, vehicle_.yawInertia, impulse));
+}
+
+// Applies impulses until nothing that touches approaches.
+CollisionStep::Settled CollisionStep::settle(double time) {
+  findTouched();
+  findHidden();
+  for (int count = 0;; ++count) {
+    Next next = firstNewWall();
+    if (next.wall == nullptr) next = fastestStruckWall();
+    if (next.wall == nullptr) return count > 0 ? Settled::by_impulses : Settled::without_impulse;
+    const bool last = impacts_.size() + 1 == maxImpacts;
+    if (last || count >= togetherAfter) {
+      answerTogether(time);
+      return last ? Settled::for_now : Settled::by_impulses;
+    }
+    const bool plastic = count >= plasticAfter || impacts_.size() >= plasticInStepAfter;
+    answer(next, time, plastic ? 0.0 : 1.0);
+  }
+}
+
+// Of all walls that the outline stands in: the velocity that takes it out a little.
+Vector2 CollisionStep::easeOut(double h) const {
+  Vector2 velocity = Vector2::Zero();
+  for (const Wall& wall : walls_) {
+    if (!wall.touched || wall.hidden || wall.segment.settings->method == Method::paper) continue;
+    const double depth = wall.overlap.depth - easeOutDepth;
+    if (depth <= 0.0) continue;
+    const double wanted = std::min(easeOutShare * depth / h, maxEaseOut);
+    const double missing = wanted - velocity.dot(wall.overlap.normal);
+    if (missing > 0.0) velocity += missing * wall.overlap.normal;
+  }
+  return velocity;
+}
+
+// The next touch after `from`, and its wall; null if there is none before `until`.
+CollisionStep::NextTouch CollisionStep::nextTouch(double from, double until) {
+  NextTouch next{.time = until};
+  for (Wall& wall : walls_) {
+    if (wall.passed || wall.segment.settings->method == Method::paper) continue;
+    const double start = std::max(from, wall.unheardOf);
+    if (start > next.time) continue;
+    // motion_ is the motion at `from`.
+    const double time =
+        from + timeOfTouch(outline_, motion_, wall.segment, wall.touched ? &wall.overlap : nullptr,
+                           start - from, next.time - from, slidingPause * until);
+    if (time <= next.time) next = {.time = time, .wall = &wall};
+  }
+  return next;
+}
+
+StepOutcome CollisionStep::resolve(const VehicleParameters& vehicle, const PlanarMotion& motion,
+                                   std::span<const WallSegment> walls, double h) {
+  vehicle_ = vehicle;
+  outline_ = Outline(vehicle);
+  motion_ = motion;
+  given_ = walls;
+  impacts_.clear();
+  StepOutcome outcome;
+  mergeWalls(walls, motion_.position);
+
+  if (h > 0.0) {
+    findTouched();
+    findHidden();
+    outcome.shift.velocity = easeOut(h);
+    motion_.position += h * outcome.shift.velocity;
+  }
+
+  double time = 0.0;
+  Settled settled = settle(time);
+  while (settled != Settled::for_now && h > 0.0) {
+    const NextTouch next = nextTouch(time, h);
+    if (next.wall == nullptr) break;
+    motion_ = advanced(motion_, next.time - time);
+    time = next.time;
+    settled = settle(time);
+    if (settled == Settled::without_impulse) next.wall->unheardOf = time + lookAgain * h;
+  }
+  for (const StepImpact& impact : impacts_) outcome.impulse += impact.response.impulse;
   outcome.impacts = impacts_;
-  outcome.after = motion_;
+  outcome.settled = settled != Settled::for_now;
+  if (outcome.settled || !(h > 0.0)) {
+    outcome.after = advanced(motion_, h - time);
+  } else {
+    // Where it would go is not known: it waits.
+    outcome.after = motion_;
+    const double share = (h - time) / h;
+    outcome.shift.velocity -= share * motion_.velocity;
+    outcome.shift.yawRate -= share * motion_.yawRate;
+  }
   return outcome;
 }
 

@@ -9,10 +9,6 @@ namespace bumper {
 
 namespace {
 
-// Points of the outline that lie within this of the deepest one touch the wall together, m: a side
-// is flush if its ends differ by less.
-constexpr double touchTolerance = 1e-9;
-
 // An interval along a wall's line; empty if low > high.
 struct Interval {
   double low = std::numeric_limits<double>::infinity();
@@ -38,13 +34,17 @@ struct WallCorner {
 using WallCorners = std::array<WallCorner, 4>;
 
 WallCorners inWallAxes(const Outline& outline, const Vector2& position, double yaw,
-                       const Vector2& normal, double offset) {
-  const Vector2 tangent = turnedLeft(normal);
+                       const Overlap& line) {
+  const Vector2 tangent = turnedLeft(line.normal);
   const std::array<Vector2, 4> corners = outline.corners();
+  const double cosine = std::cos(yaw);
+  const double sine = std::sin(yaw);
   WallCorners result;
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Vector2 corner = position + rotated(corners[k], yaw);
-    result[k] = {.along = tangent.dot(corner), .depth = offset - normal.dot(corner)};
+    const Vector2& c = corners[k];
+    const Vector2 corner =
+        position + Vector2(cosine * c.x() - sine * c.y(), sine * c.x() + cosine * c.y());
+    result[k] = {.along = tangent.dot(corner), .depth = line.offset - line.normal.dot(corner)};
   }
   return result;
 }
@@ -64,21 +64,107 @@ Interval atDepth(const WallCorners& corners, double depth) {
   return inside;
 }
 
-// The deepest point of the outline between two places along the wall.
-double deepestBetween(const WallCorners& corners, double from, double to) {
+// How deep the outline's boundary lies at a place along the wall; −∞ beside the outline.
+double depthAt(const WallCorners& corners, double place) {
   double deepest = -std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const WallCorner& a = corners[k];
     const WallCorner& b = corners[(k + 1) % corners.size()];
-    if (from <= a.along && a.along <= to) deepest = std::max(deepest, a.depth);
-    for (const double place : {from, to}) {
-      if ((a.along < place) != (b.along < place)) {
-        const double share = (place - a.along) / (b.along - a.along);
-        deepest = std::max(deepest, a.depth + share * (b.depth - a.depth));
-      }
+    if ((a.along < place) == (b.along < place)) continue;
+    const double share = (place - a.along) / (b.along - a.along);
+    deepest = std::max(deepest, a.depth + share * (b.depth - a.depth));
+  }
+  return deepest;
+}
+
+// The deepest point of the outline over the wall.
+double deepestOver(const WallCorners& corners, const Overlap& wall) {
+  double deepest = std::max(depthAt(corners, wall.start), depthAt(corners, wall.end));
+  for (const WallCorner& corner : corners) {
+    if (wall.start - touchTolerance <= corner.along && corner.along <= wall.end + touchTolerance) {
+      deepest = std::max(deepest, corner.depth);
     }
   }
   return deepest;
+}
+
+// Depth, deepest place and line of interference with a face that the outline is known to reach.
+void measure(Overlap& face, const WallCorners& corners, const Interference& inside) {
+  face.depth = deepestOver(corners, face);
+  Interval touch = atDepth(corners, face.depth - touchTolerance);
+  touch.limit(face.start, face.end);
+  const Vector2 tangent = turnedLeft(face.normal);
+  if (touch.empty()) {
+    // The outline reaches the wall at one of its ends.
+    touch.low = touch.high =
+        depthAt(corners, face.start) > depthAt(corners, face.end) ? face.start : face.end;
+  }
+  face.deepest = touch.middle();
+  const Vector2 foot = face.offset * face.normal;
+  face.insideFrom = inside.empty ? Vector2(foot + touch.low * tangent) : inside.from;
+  face.insideTo = inside.empty ? Vector2(foot + touch.high * tangent) : inside.to;
+}
+
+// The outline's four sides: unit normal outwards in the vehicle's frame, and how far out.
+struct Side {
+  Vector2 out;
+  double reach;
+};
+std::array<Side, 4> sidesOf(const Outline& outline) {
+  return {Side{.out = {1.0, 0.0}, .reach = outline.front},
+          {.out = {-1.0, 0.0}, .reach = outline.rear},
+          {.out = {0.0, 1.0}, .reach = outline.halfWidth},
+          {.out = {0.0, -1.0}, .reach = outline.halfWidth}};
+}
+
+// The side over which the places, in the vehicle's frame, stand out most; negative: they are
+// inside.
+struct Separation {
+  std::size_t side = 0;
+  double distance = -std::numeric_limits<double>::infinity();
+};
+Separation separationFrom(const Outline& outline, const Vector2& a, const Vector2& b) {
+  const std::array<Side, 4> sides = sidesOf(outline);
+  Separation most;
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    const double distance = std::min(sides[k].out.dot(a), sides[k].out.dot(b)) - sides[k].reach;
+    if (distance > most.distance) most = {.side = k, .distance = distance};
+  }
+  return most;
+}
+
+// An end of a wall, or a post, at a point of the outline.
+Overlap touchAtPoint(const Vector2& normal, const Vector2& point, double depth) {
+  Overlap touch;
+  touch.normal = normal;
+  touch.offset = normal.dot(point);
+  touch.deepest = turnedLeft(normal).dot(point);
+  touch.start = touch.end = touch.deepest;
+  touch.insideFrom = touch.insideTo = point;
+  touch.depth = depth;
+  touch.byEnd = true;
+  return touch;
+}
+
+std::optional<Overlap> touchPost(const Outline& outline, const Vector2& position, double yaw,
+                                 const WallSegment& post) {
+  const Vector2 centre = rotated(post.start - position, -yaw);
+  const Vector2 nearest(std::clamp(centre.x(), -outline.rear, outline.front),
+                        std::clamp(centre.y(), -outline.halfWidth, outline.halfWidth));
+  const double distance = (nearest - centre).norm();
+  if (distance - post.radius > touchTolerance) return std::nullopt;
+  Vector2 normal;
+  double depth = 0.0;
+  if (distance > 0.0) {
+    normal = (nearest - centre) / distance;
+    depth = post.radius - distance;
+  } else {
+    const Separation inside = separationFrom(outline, centre, centre);
+    normal = -sidesOf(outline)[inside.side].out;
+    depth = post.radius - inside.distance;
+  }
+  normal = rotated(normal, yaw);
+  return touchAtPoint(normal, post.start + post.radius * normal, depth);
 }
 
 }  // namespace
@@ -90,7 +176,7 @@ std::array<Vector2, 4> Outline::corners() const {
 
 Overlap lineOf(const WallSegment& wall, const Vector2& position) {
   Overlap line;
-  const bool behind = (position - wall.start).dot(wall.normal) < 0.0;
+  const bool behind = !wall.solid && (position - wall.start).dot(wall.normal) < 0.0;
   line.normal = behind ? Vector2(-wall.normal) : wall.normal;
   line.offset = line.normal.dot(wall.start);
   const Vector2 tangent = turnedLeft(line.normal);
@@ -98,21 +184,87 @@ Overlap lineOf(const WallSegment& wall, const Vector2& position) {
   return line;
 }
 
+Interference interference(const Outline& outline, const Vector2& position, double yaw,
+                          const WallSegment& wall) {
+  const Vector2 start = rotated(wall.start - position, -yaw);
+  const Vector2 along = rotated(wall.end - wall.start, -yaw);
+  double from = 0.0;
+  double to = 1.0;
+  for (const Side& side : sidesOf(outline)) {
+    // Inside where over + share · rate ≤ 0.
+    const double over = side.out.dot(start) - side.reach;
+    const double rate = side.out.dot(along);
+    if (rate == 0.0) {
+      if (over > 0.0) return {};
+    } else if (rate > 0.0) {
+      to = std::min(to, -over / rate);
+    } else {
+      from = std::max(from, -over / rate);
+    }
+  }
+  if (from > to) return {};
+  return {.empty = false,
+          .from = wall.start + from * (wall.end - wall.start),
+          .to = wall.start + to * (wall.end - wall.start)};
+}
+
 std::optional<Overlap> findOverlap(const Outline& outline, const Vector2& position, double yaw,
                                    const WallSegment& wall) {
+  const Interference inside = interference(outline, position, yaw, wall);
+  if (inside.empty) return std::nullopt;
   Overlap overlap = lineOf(wall, position);
-  const WallCorners corners = inWallAxes(outline, position, yaw, overlap.normal, overlap.offset);
-  Interval cut = atDepth(corners, 0.0);
-  cut.limit(overlap.start, overlap.end);
-  if (cut.empty()) return std::nullopt;
-  overlap.a = cut.low;
-  overlap.b = cut.high;
-
-  overlap.depth = std::max(deepestBetween(corners, overlap.start, overlap.end), 0.0);
-  Interval touch = atDepth(corners, overlap.depth - touchTolerance);
-  touch.limit(overlap.start, overlap.end);
-  overlap.deepest = touch.empty() ? cut.middle() : touch.middle();
+  measure(overlap, inWallAxes(outline, position, yaw, overlap), inside);
+  overlap.depth = std::max(overlap.depth, 0.0);
   return overlap;
+}
+
+std::optional<Overlap> findTouch(const Outline& outline, const Vector2& position, double yaw,
+                                 const WallSegment& wall) {
+  if (wall.isPost()) return touchPost(outline, position, yaw, wall);
+
+  const Vector2 start = rotated(wall.start - position, -yaw);
+  const Vector2 end = rotated(wall.end - position, -yaw);
+  const Separation outside = separationFrom(outline, start, end);
+  if (outside.distance > touchTolerance) return std::nullopt;
+
+  // Which face of the wall the outline is less deep in.
+  Overlap face = lineOf(wall, wall.start + wall.normal);
+  WallCorners corners = inWallAxes(outline, position, yaw, face);
+  const auto [highest, lowest] = std::minmax_element(
+      corners.begin(), corners.end(),
+      [](const WallCorner& a, const WallCorner& b) { return a.depth < b.depth; });
+  const double inFront = -lowest->depth;
+  const double behind = highest->depth;
+  if (std::max(inFront, wall.solid ? inFront : behind) > touchTolerance) return std::nullopt;
+  if (!wall.solid && behind > inFront) {
+    WallSegment turned = wall;
+    turned.normal = -wall.normal;
+    face = lineOf(turned, wall.start + turned.normal);
+    corners = inWallAxes(outline, position, yaw, face);
+  }
+  const double faceDistance = wall.solid ? inFront : std::max(inFront, behind);
+
+  const Interference inside = interference(outline, position, yaw, wall);
+  if (outside.distance > faceDistance + touchTolerance) {
+    // The end that is the deeper in that side, or the middle if both are.
+    const Side side = sidesOf(outline)[outside.side];
+    const double atStart = side.out.dot(start) - side.reach;
+    const double atEnd = side.out.dot(end) - side.reach;
+    Vector2 point = atStart < atEnd ? wall.start : wall.end;
+    if (std::abs(atStart - atEnd) <= touchTolerance) {
+      point = inside.empty ? Vector2(0.5 * (wall.start + wall.end)) : inside.middle();
+    }
+    Overlap touch = touchAtPoint(rotated(-side.out, yaw), point, -outside.distance);
+    if (!inside.empty) {
+      touch.insideFrom = inside.from;
+      touch.insideTo = inside.to;
+    }
+    return touch;
+  }
+
+  measure(face, corners, inside);
+  if (!(face.depth >= -touchTolerance)) return std::nullopt;
+  return face;
 }
 
 double moveTo(const Overlap& overlap, const Vector2& position, double penetration) {
@@ -121,40 +273,50 @@ double moveTo(const Overlap& overlap, const Vector2& position, double penetratio
   return overlap.depth - std::clamp(penetration, touchTolerance, most);
 }
 
-Interference interference(const Outline& outline, const Vector2& position, double yaw,
-                          const Overlap& overlap) {
-  Interval inside =
-      atDepth(inWallAxes(outline, position, yaw, overlap.normal, overlap.offset), 0.0);
-  inside.limit(overlap.start, overlap.end);
-  if (inside.empty()) return {};
-  const Vector2 point =
-      inside.middle() * turnedLeft(overlap.normal) + overlap.offset * overlap.normal;
-  return {.empty = false,
-          .length = inside.high - inside.low,
-          .middle = {.point = point, .arm = point - position}};
-}
-
 ContactPoint contactPoint(const Outline& outline, const Vector2& position, double yaw,
-                          const Overlap& overlap, double penetration) {
+                          const WallSegment& wall, const Overlap& overlap, double penetration) {
+  if (wall.isPost()) {
+    // The middle of the overlap between the post's foremost point and the outline.
+    const Vector2 point =
+        overlap.deepest * turnedLeft(overlap.normal) + overlap.offset * overlap.normal;
+    const double move = moveTo(overlap, position, 0.5 * penetration);
+    return {.point = point, .arm = point - position - move * overlap.normal};
+  }
   const Vector2 moved = position + moveTo(overlap, position, penetration) * overlap.normal;
-  const Interference inside = interference(outline, moved, yaw, overlap);
-  if (!inside.empty) return inside.middle;
+  const Interference inside = interference(outline, moved, yaw, wall);
   const Vector2 point =
-      overlap.deepest * turnedLeft(overlap.normal) + overlap.offset * overlap.normal;
+      inside.empty
+          ? Vector2(overlap.deepest * turnedLeft(overlap.normal) + overlap.offset * overlap.normal)
+          : inside.middle();
   return {.point = point, .arm = point - moved};
 }
 
-ContactPoints cornersBehind(const Outline& outline, const Vector2& position, double yaw,
-                            const Overlap& overlap) {
-  const Vector2 tangent = turnedLeft(overlap.normal);
+ContactPoints touchingPoints(const Outline& outline, const Vector2& position, double yaw,
+                             const WallSegment& wall, const Overlap& overlap) {
   ContactPoints found;
-  for (const WallCorner& corner :
-       inWallAxes(outline, position, yaw, overlap.normal, overlap.offset)) {
-    if (corner.depth < 0.0 || corner.along < overlap.start || corner.along > overlap.end) continue;
-    const Vector2 onWall = corner.along * tangent + overlap.offset * overlap.normal;
-    found.points[found.count++] = {.point = onWall,
-                                   .arm = onWall - corner.depth * overlap.normal - position};
+  if (wall.isPost()) return found;
+  if (overlap.byEnd) {
+    for (const Vector2& end : {wall.start, wall.end}) {
+      const Vector2 local = rotated(end - position, -yaw);
+      if (separationFrom(outline, local, local).distance <= touchTolerance) {
+        found.add({.point = end, .arm = end - position});
+      }
+    }
+    return found;
   }
+  const Vector2 tangent = turnedLeft(overlap.normal);
+  const WallCorners corners = inWallAxes(outline, position, yaw, overlap);
+  const auto add = [&](double along, double depth) {
+    if (depth < -touchTolerance) return;
+    const Vector2 onWall = along * tangent + overlap.offset * overlap.normal;
+    found.add({.point = onWall, .arm = onWall - depth * overlap.normal - position});
+  };
+  for (const WallCorner& corner : corners) {
+    if (corner.along < overlap.start - touchTolerance) continue;
+    if (corner.along > overlap.end + touchTolerance) continue;
+    add(corner.along, corner.depth);
+  }
+  for (const double place : {overlap.start, overlap.end}) add(place, depthAt(corners, place));
   return found;
 }
 

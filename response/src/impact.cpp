@@ -22,29 +22,51 @@ ContactSolution answerByRestitution(const ContactMobility& mobility,
              : solveRestitution(mobility, velocity, restitution, friction);
 }
 
-}  // namespace
+const ContactBody fixedBarrier;
 
-ImpactResponse respond(const Impact& impact, const PlanarMotion& motion, double mass,
-                       double yawInertia, const ResponseSettings& settings,
-                       double restitutionScale) {
-  const ContactBody vehicle{.inverseMass = 1.0 / mass,
-                            .inverseYawInertia = 1.0 / yawInertia,
-                            .arm = impact.arm,
-                            .velocity = motion.velocity,
-                            .yawRate = motion.yawRate};
-  const ContactBody barrier;
-  const ContactMobility mobility = contactMobility(vehicle, barrier, impact.normal);
-  const ContactVelocity velocity = contactVelocity(vehicle, barrier, impact.normal);
-  const double energyBefore = yawPlaneEnergy(motion, mass, yawInertia);
+ContactBody bodyAt(const Impact& impact, const PlanarMotion& motion, double mass,
+                   double yawInertia) {
+  return {.inverseMass = 1.0 / mass,
+          .inverseYawInertia = 1.0 / yawInertia,
+          .arm = impact.arm,
+          .velocity = motion.velocity,
+          .yawRate = motion.yawRate};
+}
 
+// What is known of an impact before anything answers it.
+ImpactResponse before(const Impact& impact, const PlanarMotion& motion,
+                      const ContactVelocity& velocity) {
   ImpactResponse response;
-  response.law = settings.law;
   response.before = motion;
   response.approachSpeed = -velocity.normal;
   response.angles = {
       .contactVelocity = std::atan2(std::abs(velocity.normal), std::abs(velocity.tangent)),
       .centreVelocity = angleToWall(motion.velocity, impact.normal),
       .heading = angleToWall(rotated(Vector2::UnitX(), motion.yaw), impact.normal)};
+  return response;
+}
+
+void apply(ImpactResponse& response, const PlanarImpulse& impulse, double mass, double yawInertia) {
+  response.impulse = impulse;
+  response.after = afterImpulse(response.before, impulse, mass, yawInertia);
+  const double energyBefore = yawPlaneEnergy(response.before, mass, yawInertia);
+  if (energyBefore > 0.0) {
+    response.energyRatio = yawPlaneEnergy(response.after, mass, yawInertia) / energyBefore;
+  }
+}
+
+}  // namespace
+
+ImpactResponse respond(const Impact& impact, const PlanarMotion& motion, double mass,
+                       double yawInertia, const ResponseSettings& settings,
+                       double restitutionScale) {
+  const ContactBody vehicle = bodyAt(impact, motion, mass, yawInertia);
+  const ContactMobility mobility = contactMobility(vehicle, fixedBarrier, impact.normal);
+  const ContactVelocity velocity = contactVelocity(vehicle, fixedBarrier, impact.normal);
+  const double energyBefore = yawPlaneEnergy(motion, mass, yawInertia);
+
+  ImpactResponse response = before(impact, motion, velocity);
+  response.law = settings.law;
   const double angle = response.angles.by(settings.angle);
   response.friction = settings.friction(angle);
 
@@ -76,11 +98,25 @@ ImpactResponse respond(const Impact& impact, const PlanarMotion& motion, double 
         mobility, velocity, response.restitution,
         {.kind = settings.frictionKind, .value = response.friction}, settings.method);
   }
-  response.impulse = onVehicle(response.contact.impulse, impact.normal, impact.arm);
-  response.after = afterImpulse(motion, response.impulse, mass, yawInertia);
-  if (energyBefore > 0.0) {
-    response.energyRatio = yawPlaneEnergy(response.after, mass, yawInertia) / energyBefore;
-  }
+  apply(response, onVehicle(response.contact.impulse, impact.normal, impact.arm), mass, yawInertia);
+  return response;
+}
+
+ImpactResponse plainResponse(const Impact& impact, const PlanarMotion& motion, double mass,
+                             double yawInertia, const PlanarImpulse& impulse) {
+  const ContactBody vehicle = bodyAt(impact, motion, mass, yawInertia);
+  const ContactVelocity velocity = contactVelocity(vehicle, fixedBarrier, impact.normal);
+  ImpactResponse response = before(impact, motion, velocity);
+  response.energyAsked = std::numeric_limits<double>::quiet_NaN();
+  response.contact.impulse = {.normal = impulse.linear.dot(impact.normal),
+                              .tangent = impulse.linear.dot(turnedLeft(impact.normal))};
+  response.contact.criticalRatio = std::numeric_limits<double>::quiet_NaN();
+  apply(response, impulse, mass, yawInertia);
+  response.contact.velocityAfter = contactVelocity(bodyAt(impact, response.after, mass, yawInertia),
+                                                   fixedBarrier, impact.normal);
+  response.contact.energyChange =
+      yawPlaneEnergy(response.after, mass, yawInertia) - yawPlaneEnergy(motion, mass, yawInertia);
+  response.contact.regime = Regime::sticking;
   return response;
 }
 

@@ -6,6 +6,10 @@ std::string_view toString(EventPhase phase) {
   switch (phase) {
     case EventPhase::impact:
       return "impact";
+    case EventPhase::contact_begin:
+      return "contact_begin";
+    case EventPhase::contact_end:
+      return "contact_end";
   }
   return "unknown";
 }

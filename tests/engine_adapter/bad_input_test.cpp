@@ -98,7 +98,19 @@ TEST(BadInput, Barriers) {
 
   expectError([&] { responder.addBarrier(dGeomID{nullptr}); }, "null");
   BoxCar car(ode.world);
-  expectError([&] { responder.addBarrier(car.geom); }, "trimesh");
+  expectError([&] { responder.addBarrier(car.geom); }, "has a body");
+  const dGeomID sphere = dCreateSphere(nullptr, 1.0);
+  expectError([&] { responder.addBarrier(sphere); }, "given as a scene");
+  dGeomDestroy(sphere);
+  const dGeomID ground = dCreatePlane(nullptr, 0.0, 0.0, 1.0, 0.0);
+  expectError([&] { responder.addBarrier(ground); }, "plane is flatter");
+  dGeomDestroy(ground);
+  expectError(
+      [&] {
+        responder.addBarrier(straightWall({0.0, 0.0}, {10.0, 0.0}, 1.0),
+                             {.materials = {{"glass", ResponseSettings{}}}});
+      },
+      "no material 'glass'");
   EXPECT_EQ(dSpaceGetNumGeoms(ode.space), geomsBefore);
 
   const OdeMesh mesh(ode.space, straightWall({0.0, 0.0}, {10.0, 0.0}, 1.0));

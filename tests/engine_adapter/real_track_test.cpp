@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <utility>
 
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/response/contact_solve.h"
@@ -68,13 +69,23 @@ TEST_F(RealTrack, AFourWheelCarHitsItsWalls) {
   for (int i = 0; i < 600; ++i) {
     const Eigen::Vector3d placeBefore = car.massCentre();
     ode.step(h, &responder, [&] {
+      const double start = responder.time();
+      bool first = true;
       for (const ImpactEvent& event : responder.step(h)) {
+        if (event.phase != EventPhase::impact) continue;
         ++impacts;
+        const VehicleParameters now = car.parameters();
+        EXPECT_NEAR(event.normal.z(), 0.0, 0.2);
+        EXPECT_NEAR(event.deltaV, std::hypot(event.impulseNormal, event.impulseTangent) / now.mass,
+                    1e-9);
+        // Of a later one the yaw at the impact is not known here.
+        if (!std::exchange(first, false)) continue;
         // The law's own numbers for what the event says of the contact.
         const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> axes(
             dBodyGetRotation(car.chassis));
-        const Vector2 normal = (axes.leftCols<3>().transpose() * event.normal).head<2>();
-        const VehicleParameters now = car.parameters();
+        const Vector2 normal =
+            rotated((axes.leftCols<3>().transpose() * event.normal).head<2>(),
+                    -event.yawRateBefore * (event.time - start));
         const ContactBody body{.inverseMass = 1.0 / now.mass,
                                .inverseYawInertia = 1.0 / now.yawInertia,
                                .arm = event.arm};
@@ -82,9 +93,6 @@ TEST_F(RealTrack, AFourWheelCarHitsItsWalls) {
         const double denominator = mobility.normal + event.impulseRatio * mobility.coupling;
         const double law = (1.0 + event.restitution) * event.approachSpeed / denominator;
         EXPECT_NEAR(event.impulseNormal, law, 1e-9 * law);
-        EXPECT_NEAR(event.normal.z(), 0.0, 0.2);
-        EXPECT_NEAR(event.deltaV, std::hypot(event.impulseNormal, event.impulseTangent) / now.mass,
-                    1e-9);
       }
     });
     EXPECT_EQ(responder.issues(vehicle), step_issue::none);

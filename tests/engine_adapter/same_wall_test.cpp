@@ -19,8 +19,8 @@ constexpr double degree = std::numbers::pi / 180.0;
 constexpr double h = 0.005;
 constexpr double sixtyMph = 26.8224;
 
-// Yaw rate and speed away from the wall after a head-on hit, 60 mph, 4 cm in; the wall stands along
-// y at `at.x()`, and the car's middle is at `at.y()`.
+// Yaw rate and speed away from the wall after a head-on hit at 60 mph; the wall stands along y at
+// `at.x()`, and the car's middle is at `at.y()`.
 struct HeadOn {
   double yawRate;  // rad/s
   double rebound;  // m/s
@@ -31,11 +31,11 @@ HeadOn hit(OdeWorld& ode, Responder& responder, const Eigen::Vector2d& at, doubl
   const VehicleId vehicle = responder.addVehicle(car.body, car.parameters);
   const Eigen::Matrix3d axes =
       Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  car.place({at.x() - 2.06, at.y(), 0.55}, axes);
+  car.place({at.x() - 2.15, at.y(), 0.55}, axes);
   car.move(sixtyMph * axes.col(0), Eigen::Vector3d::Zero());
   EXPECT_FALSE(responder.step(h).empty());
   dWorldQuickStep(ode.world, h);
-  const HeadOn result{car.angularVelocity().z(), -car.velocity().x()};
+  const HeadOn result{responder.yawRate(vehicle), -responder.velocity(vehicle).x()};
   responder.removeVehicle(vehicle);
   return result;
 }
@@ -128,10 +128,10 @@ TEST(SameWall, LeaningIsMetAtItsForemostLine) {
     // The band reaches from 0.275 to 0.75 m.
     const double foremost = lean * (lean < 0.0 ? 0.75 : 0.275);
     car.move({5.0, 0.0, 0.0}, Eigen::Vector3d::Zero());
-    car.place({foremost - 2.1 - 1e-6, 0.0, 0.55}, Eigen::Matrix3d::Identity());
-    EXPECT_TRUE(responder.step(h).empty()) << lean;
-    car.place({foremost - 2.1 + 1e-6, 0.0, 0.55}, Eigen::Matrix3d::Identity());
-    EXPECT_FALSE(responder.step(h).empty()) << lean;
+    car.place({foremost - 2.1 - 0.02, 0.0, 0.55}, Eigen::Matrix3d::Identity());
+    const auto events = responder.step(h);
+    ASSERT_EQ(events.size(), 1U) << lean;
+    EXPECT_NEAR(events[0].time, 0.02 / 5.0, 1e-12) << lean;
   }
 }
 

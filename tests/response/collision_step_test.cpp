@@ -78,8 +78,9 @@ double energyOf(const PlanarMotion& motion) {
 }
 
 /// How fast the first-touched point of an overlap closes on the wall, m/s.
-double approachSpeed(const PlanarMotion& motion, const Overlap& overlap) {
-  const ContactPoint first = contactPoint(Outline(car), motion.position, motion.yaw, overlap, 0.0);
+double approachSpeed(const PlanarMotion& motion, const WallSegment& wall,
+                     const Overlap& overlap) {
+  const ContactPoint first = contactPoint(Outline(car), motion.position, motion.yaw, wall, overlap, 0.0);
   return -velocityAt(motion, first.arm).dot(overlap.normal);
 }
 
@@ -106,7 +107,7 @@ TEST(CollisionStep, HeadOnReboundsWithTheCurvesRestitution) {
   const PlanarMotion motion{.velocity = {20.0, 0.0}};
   const WallSegment wall = wallAt(motion, {-1.0, 0.0}, 0.07, 42);
   CollisionStep step;
-  const StepOutcome outcome = step.resolve(car, motion, {&wall, 1});
+  const StepOutcome outcome = step.resolve(car, motion, {&wall, 1}, 0.0);
   ASSERT_EQ(outcome.impacts.size(), 1U);
   EXPECT_EQ(outcome.impacts[0].impact.wall, 42);
   EXPECT_NEAR(outcome.impacts[0].impact.depth, 0.07, 1e-12);
@@ -125,14 +126,14 @@ TEST(CollisionStep, OneWallIsOverlapContactPointAndResponse) {
   for (int i = 0; i < 10'000; ++i) {
     const auto [motion, normal] = randomApproach(random);
     const WallSegment wall = wallAt(motion, normal, random.uniform(0.001, 0.2), i);
-    const StepOutcome outcome = step.resolve(car, motion, {&wall, 1});
+    const StepOutcome outcome = step.resolve(car, motion, {&wall, 1}, 0.0);
 
     const std::optional<Overlap> overlap =
         findOverlap(Outline(car), motion.position, motion.yaw, wall);
     ASSERT_TRUE(overlap.has_value());
-    const double approach = approachSpeed(motion, *overlap);
+    const double approach = approachSpeed(motion, wall, *overlap);
     if (approach < 2.0 * paperSettings.restSpeed) continue;  // may be no event
-    const ContactPoint contact = contactPoint(Outline(car), motion.position, motion.yaw, *overlap,
+    const ContactPoint contact = contactPoint(Outline(car), motion.position, motion.yaw, wall, *overlap,
                                               approach * paperSettings.penetrationTime);
     const Impact impact{.wall = i,
                         .point = contact.point,
@@ -193,7 +194,7 @@ void expectSound(const StepOutcome& outcome, const PlanarMotion& motion,
     const std::optional<Overlap> overlap =
         findOverlap(Outline(car), motion.position, motion.yaw, wall);
     if (!overlap) continue;
-    ASSERT_LE(approachSpeed(outcome.after, *overlap), 1e-6) << i << " wall " << wall.id;
+    ASSERT_LE(approachSpeed(outcome.after, wall, *overlap), 1e-6) << i << " wall " << wall.id;
   }
 }
 
@@ -203,7 +204,7 @@ TEST(CollisionStep, OneWallIsAlwaysLeft) {
   for (int i = 0; i < 30'000; ++i) {
     const auto [motion, normal] = randomApproach(random);
     const WallSegment wall = wallAt(motion, normal, random.uniform(0.001, 0.3));
-    const StepOutcome outcome = step.resolve(car, motion, {&wall, 1});
+    const StepOutcome outcome = step.resolve(car, motion, {&wall, 1}, 0.0);
     ASSERT_TRUE(outcome.settled) << i;
     expectSound(outcome, motion, {&wall, 1}, i);
     if (HasFatalFailure()) return;
@@ -218,7 +219,7 @@ TEST(CollisionStep, InsideCornersLoseEnergyAndAreLeft) {
     const auto [motion, normal] = randomApproach(random);
     const double opening = random.uniform(90.0, 170.0) * degree;
     const std::array<WallSegment, 2> walls = insideCorner(random, motion, normal, opening);
-    const StepOutcome outcome = step.resolve(car, motion, walls);
+    const StepOutcome outcome = step.resolve(car, motion, walls, 0.0);
     ASSERT_TRUE(outcome.settled) << i << " opening " << opening / degree;
     expectSound(outcome, motion, walls, i);
     if (HasFatalFailure()) return;
@@ -229,26 +230,19 @@ TEST(CollisionStep, InsideCornersLoseEnergyAndAreLeft) {
   EXPECT_GT(both, 1'000);
 }
 
-// In a wedge the impulses go to and fro for ever; the bounded number of them takes nearly all of
-// the approach, and the outcome says that it is not all.
-TEST(CollisionStep, WedgesLoseEnergyAndNearlyAllApproach) {
+// In a wedge the impulses would go to and fro for ever; after a bounded number of them both walls
+// are solved together.
+TEST(CollisionStep, WedgesLoseEnergyAndAreLeft) {
   Random random(712);
   CollisionStep step;
   for (int i = 0; i < 30'000; ++i) {
     const auto [motion, normal] = randomApproach(random);
-    const double opening = random.uniform(30.0, 90.0) * degree;
+    const double opening = random.uniform(5.0, 90.0) * degree;
     const std::array<WallSegment, 2> walls = insideCorner(random, motion, normal, opening);
-    const StepOutcome outcome = step.resolve(car, motion, walls);
+    const StepOutcome outcome = step.resolve(car, motion, walls, 0.0);
+    ASSERT_TRUE(outcome.settled) << i << " opening " << opening / degree;
     expectSound(outcome, motion, walls, i);
     if (HasFatalFailure()) return;
-    for (const WallSegment& wall : walls) {
-      const std::optional<Overlap> overlap =
-          findOverlap(Outline(car), motion.position, motion.yaw, wall);
-      if (!overlap) continue;
-      ASSERT_LE(approachSpeed(outcome.after, *overlap),
-                0.03 * (motion.velocity.norm() + 2.0 * std::abs(motion.yawRate)))
-          << i << " opening " << opening / degree;
-    }
   }
 }
 
@@ -260,7 +254,7 @@ TEST(CollisionStep, LeavingAWallTakesNoImpulse) {
     motion.yawRate = 0.0;
     motion.velocity = -motion.velocity;
     const WallSegment wall = wallAt(motion, normal, random.uniform(0.001, 0.5));
-    const StepOutcome outcome = step.resolve(car, motion, {&wall, 1});
+    const StepOutcome outcome = step.resolve(car, motion, {&wall, 1}, 0.0);
     ASSERT_TRUE(outcome.impacts.empty()) << i;
     ASSERT_TRUE(outcome.settled) << i;
     ASSERT_EQ(outcome.impulse.linear, Vector2::Zero());
@@ -279,11 +273,11 @@ TEST(CollisionStep, WallsOutOfReachDoNotCount) {
     // In line with the outline's front, but beside it.
     const WallSegment beside = wallAt(motion, normal, 0.1, 1, 20.0, -6.0);
     const WallSegment walls[] = {near, beside};
-    const StepOutcome outcome = step.resolve(car, motion, walls);
+    const StepOutcome outcome = step.resolve(car, motion, walls, 0.0);
     ASSERT_TRUE(outcome.impacts.empty()) << i;
     ASSERT_EQ(outcome.after.velocity, motion.velocity);
   }
-  const StepOutcome none = step.resolve(car, {.velocity = {1.0, 2.0}}, {});
+  const StepOutcome none = step.resolve(car, {.velocity = {1.0, 2.0}}, {}, 0.0);
   EXPECT_TRUE(none.impacts.empty());
   EXPECT_TRUE(none.settled);
   EXPECT_EQ(none.after.velocity, Vector2(1.0, 2.0));
@@ -304,8 +298,8 @@ TEST(CollisionStep, TheBackOfAThickWallStaysHidden) {
     const WallSegment cap = wallBetween(front.end, back.end, 3);
     const WallSegment otherCap = wallBetween(back.start, front.start, 4);
     const WallSegment walls[] = {back, cap, front, otherCap};
-    const PlanarMotion expected = step.resolve(car, motion, {&front, 1}).after;
-    const StepOutcome outcome = step.resolve(car, motion, walls);
+    const PlanarMotion expected = step.resolve(car, motion, {&front, 1}, 0.0).after;
+    const StepOutcome outcome = step.resolve(car, motion, walls, 0.0);
     for (const StepImpact& impact : outcome.impacts) ASSERT_EQ(impact.impact.wall, 1) << i;
     expectSameMotion(outcome.after, expected, 1e-9, std::to_string(i));
   }
@@ -327,8 +321,8 @@ TEST(CollisionStep, TheEndCapBehindAFaceStaysHidden) {
         wallBetween({face + thickness, end + 20.0 * side}, {face + thickness, end}, 2);
     const WallSegment cap = wallBetween({face + thickness, end}, {face, end}, 3);
     const WallSegment walls[] = {cap, back, front};
-    const PlanarMotion expected = step.resolve(car, motion, {&front, 1}).after;
-    const StepOutcome outcome = step.resolve(car, motion, walls);
+    const PlanarMotion expected = step.resolve(car, motion, {&front, 1}, 0.0).after;
+    const StepOutcome outcome = step.resolve(car, motion, walls, 0.0);
     const std::string where = std::to_string(i) + ": speed " + std::to_string(motion.velocity.x()) +
                               " end " + std::to_string(end) + " side " + std::to_string(side) +
                               " depth " + std::to_string(depth) + " thickness " +
@@ -355,8 +349,8 @@ TEST(CollisionStep, TheEndCapAnswersACarFromTheSide) {
         wallBetween({face + thickness, end + 20.0 * side}, {face + thickness, end}, 2);
     const WallSegment cap = wallBetween({face + thickness, end}, {face, end}, 3);
     const WallSegment walls[] = {front, back, cap};
-    const PlanarMotion expected = step.resolve(car, motion, {&cap, 1}).after;
-    const StepOutcome outcome = step.resolve(car, motion, walls);
+    const PlanarMotion expected = step.resolve(car, motion, {&cap, 1}, 0.0).after;
+    const StepOutcome outcome = step.resolve(car, motion, walls, 0.0);
     ASSERT_FALSE(outcome.impacts.empty())
         << i << " overlap " << overlap << " thickness " << thickness << " face " << face;
     ASSERT_EQ(outcome.impacts[0].impact.wall, 3) << i;
@@ -378,15 +372,15 @@ TEST(CollisionStep, TheWallTouchedFirstAnswersFirst) {
     for (std::size_t k = 0; k < 2; ++k) {
       const std::optional<Overlap> overlap =
           findOverlap(Outline(car), motion.position, motion.yaw, walls[k]);
-      if (!overlap || approachSpeed(motion, *overlap) < 1.0) {
+      if (!overlap || approachSpeed(motion, walls[k], *overlap) < 1.0) {
         both = false;
         break;
       }
-      ago[k] = overlap->depth / approachSpeed(motion, *overlap);
+      ago[k] = overlap->depth / approachSpeed(motion, walls[k], *overlap);
     }
     // Far enough apart that the turning of the car meanwhile does not matter.
     if (!both || std::max(ago[0], ago[1]) < 1.3 * std::min(ago[0], ago[1])) continue;
-    const StepOutcome outcome = step.resolve(car, motion, walls);
+    const StepOutcome outcome = step.resolve(car, motion, walls, 0.0);
     ASSERT_FALSE(outcome.impacts.empty()) << i;
     ASSERT_EQ(outcome.impacts[0].impact.wall, ago[0] > ago[1] ? 0 : 1) << i;
     ++compared;
@@ -406,7 +400,7 @@ TEST(CollisionStep, NeighboursInLineKeepTheirOwnSettings) {
     left.settings = softRight ? &hard : &soft;
     right.settings = softRight ? &soft : &hard;
     const WallSegment walls[] = {left, right};
-    const StepOutcome outcome = step.resolve(car, motion, walls);
+    const StepOutcome outcome = step.resolve(car, motion, walls, 0.0);
     ASSERT_EQ(outcome.impacts.size(), 1U);
     EXPECT_EQ(outcome.impacts[0].impact.wall, 2);
     EXPECT_NEAR(outcome.after.velocity.x(), softRight ? 0.0 : -5.0, 1e-9);
@@ -440,10 +434,10 @@ TEST(CollisionStep, AWallInPiecesIsOneWall) {
   for (int i = 0; i < 10'000; ++i) {
     const auto [motion, normal] = randomApproach(random);
     const WallSegment wall = wallAt(motion, normal, random.uniform(0.001, 0.3));
-    const StepOutcome whole = step.resolve(car, motion, {&wall, 1});
+    const StepOutcome whole = step.resolve(car, motion, {&wall, 1}, 0.0);
     const PlanarMotion expected = whole.after;
     const std::size_t count = whole.impacts.size();
-    const StepOutcome outcome = step.resolve(car, motion, segmented(random, wall));
+    const StepOutcome outcome = step.resolve(car, motion, segmented(random, wall), 0.0);
     ASSERT_EQ(outcome.impacts.size(), count) << i;
     expectSameMotion(outcome.after, expected, 1e-8, std::to_string(i));
     if (HasFatalFailure()) return;
@@ -461,10 +455,10 @@ TEST(CollisionStep, TheOrderOfTheWallsDoesNotMatter) {
     const std::vector<WallSegment> more =
         segmented(random, wallAt(motion, second, random.uniform(0.01, 0.2), 1));
     walls.insert(walls.end(), more.begin(), more.end());
-    const PlanarMotion expected = step.resolve(car, motion, walls).after;
+    const PlanarMotion expected = step.resolve(car, motion, walls, 0.0).after;
     for (int k = 0; k < 3; ++k) {
       std::shuffle(walls.begin(), walls.end(), random.engine());
-      expectSameMotion(step.resolve(car, motion, walls).after, expected, 1e-8, std::to_string(i));
+      expectSameMotion(step.resolve(car, motion, walls, 0.0).after, expected, 1e-8, std::to_string(i));
       if (HasFatalFailure()) return;
     }
   }
@@ -479,7 +473,7 @@ TEST(CollisionStep, TurnsWithTheFrame) {
     WallSegment walls[] = {
         wallAt(motion, normal, random.uniform(0.01, 0.2), 0),
         wallAt(motion, rotated(normal, random.uniform(-2.0, 2.0)), random.uniform(0.01, 0.2), 1)};
-    const PlanarMotion expected = step.resolve(car, motion, walls).after;
+    const PlanarMotion expected = step.resolve(car, motion, walls, 0.0).after;
     PlanarMotion seen = motion;
     seen.position = rotated(motion.position, angle);
     seen.velocity = rotated(motion.velocity, angle);
@@ -489,7 +483,7 @@ TEST(CollisionStep, TurnsWithTheFrame) {
       wall.end = rotated(wall.end, angle);
       wall.normal = rotated(wall.normal, angle);
     }
-    const PlanarMotion after = step.resolve(car, seen, walls).after;
+    const PlanarMotion after = step.resolve(car, seen, walls, 0.0).after;
     ASSERT_NEAR((rotated(expected.velocity, angle) - after.velocity).norm(), 0.0, 1e-6) << i;
     ASSERT_NEAR(expected.yawRate, after.yawRate, 1e-6) << i;
   }
@@ -501,7 +495,7 @@ TEST(CollisionStep, AFlushHitDoesNotSpinTheCar) {
     PlanarMotion motion{.yaw = angle, .velocity = rotated({20.0, 0.0}, angle)};
     const Vector2 normal = rotated({-1.0, 0.0}, angle);
     const WallSegment wall = wallAt(motion, normal, 0.05);
-    const StepOutcome outcome = step.resolve(car, motion, {&wall, 1});
+    const StepOutcome outcome = step.resolve(car, motion, {&wall, 1}, 0.0);
     EXPECT_NEAR(outcome.after.yawRate, 0.0, 1e-9) << angle;
     EXPECT_NEAR(outcome.after.velocity.dot(normal), 1.0, 1e-9) << angle;
   }
@@ -514,7 +508,7 @@ TEST(CollisionStep, WallsOfDifferentSettingsAnswerForThemselves) {
   WallSegment wall = wallAt(motion, {-1.0, 0.0}, 0.05);
   wall.settings = &hard;
   CollisionStep step;
-  EXPECT_NEAR(step.resolve(car, motion, {&wall, 1}).after.velocity.x(), -4.0, 1e-12);
+  EXPECT_NEAR(step.resolve(car, motion, {&wall, 1}, 0.0).after.velocity.x(), -4.0, 1e-12);
 }
 
 TEST(CollisionStep, TheSameObjectAnswersTheSame) {
@@ -525,8 +519,8 @@ TEST(CollisionStep, TheSameObjectAnswersTheSame) {
     const WallSegment walls[] = {wallAt(motion, normal, 0.1, 0),
                                  wallAt(motion, rotated(normal, 1.0), 0.05, 1)};
     CollisionStep fresh;
-    const PlanarMotion a = used.resolve(car, motion, walls).after;
-    const PlanarMotion b = fresh.resolve(car, motion, walls).after;
+    const PlanarMotion a = used.resolve(car, motion, walls, 0.0).after;
+    const PlanarMotion b = fresh.resolve(car, motion, walls, 0.0).after;
     ASSERT_EQ(a.velocity, b.velocity) << i;
     ASSERT_EQ(a.yawRate, b.yawRate) << i;
   }

@@ -58,7 +58,7 @@ Rebound afterHit(double heading, double penetrationTime, double depth = shallow)
                          .settings = &settings};
   const PlanarMotion motion{.velocity = {sixtyMilesPerHour, 0.0}};
   CollisionStep step;
-  const StepOutcome outcome = step.resolve(car, motion, {&wall, 1});
+  const StepOutcome outcome = step.resolve(car, motion, {&wall, 1}, 0.0);
   EXPECT_TRUE(outcome.settled) << heading / degree;
   EXPECT_LE(yawPlaneEnergy(outcome.after, car.mass, car.yawInertia),
             yawPlaneEnergy(motion, car.mass, car.yawInertia) * (1.0 + 1e-12))

@@ -71,7 +71,7 @@ TEST(Why, IndependentImpulsesInACornerCreateEnergy) {
     const std::optional<Overlap> overlap = findOverlap(outline, motion.position, motion.yaw, wall);
     ASSERT_TRUE(overlap.has_value());
     const ContactPoint contact =
-        contactPoint(outline, motion.position, motion.yaw, *overlap, overlap->depth);
+        contactPoint(outline, motion.position, motion.yaw, wall, *overlap, overlap->depth);
     const Impact impact{
         .wall = wall.id, .point = contact.point, .normal = overlap->normal, .arm = contact.arm};
     const ImpactResponse response = respond(impact, motion, car.mass, car.yawInertia, settings);
@@ -81,7 +81,7 @@ TEST(Why, IndependentImpulsesInACornerCreateEnergy) {
   EXPECT_GT(yawPlaneEnergy(independent, car.mass, car.yawInertia), before);
 
   CollisionStep step;
-  const StepOutcome outcome = step.resolve(car, motion, walls);
+  const StepOutcome outcome = step.resolve(car, motion, walls, 0.0);
   EXPECT_TRUE(outcome.settled);
   EXPECT_LT(yawPlaneEnergy(outcome.after, car.mass, car.yawInertia), 0.5 * before);
 }

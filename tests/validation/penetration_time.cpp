@@ -54,7 +54,7 @@ double yawRateAfter(double heading, double penetrationTime) {
                          .id = 0,
                          .settings = &settings};
   CollisionStep step;
-  return step.resolve(car, motion, std::span(&wall, 1)).after.yawRate / degree;
+  return step.resolve(car, motion, std::span(&wall, 1), 0.0).after.yawRate / degree;
 }
 
 double steepest(double penetrationTime) {

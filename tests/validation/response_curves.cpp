@@ -82,7 +82,7 @@ void writeHeadings(const std::filesystem::path& folder) {
       wall.end = touched + 50.0 * bumper::turnedLeft(normal);
       wall.normal = normal;
       wall.settings = &settings;
-      const bumper::StepOutcome outcome = step.resolve(car, motion, {&wall, 1});
+      const bumper::StepOutcome outcome = step.resolve(car, motion, {&wall, 1}, 0.0);
       file << ',' << outcome.after.yawRate / degree << ',' << outcome.after.velocity.dot(normal)
            << ',' << bumper::yawPlaneEnergy(outcome.after, car.mass, car.yawInertia) / energyBefore
            << ',' << outcome.impacts.size();

@@ -2,6 +2,7 @@
 
 #include <ode/ode.h>
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -20,12 +21,19 @@ struct BarrierOptions {
   /// The space in which a barrier made from a scene puts its new geom; may be null, then the
   /// application collides it itself. Not used for a mesh that the application already has.
   dSpaceID space = nullptr;
+  /// The application's geom whose shape the scene is, in world coordinates, for classes whose shape
+  /// ODE does not tell: convex, heightfield. Null: a new geom is made. Not used for a geom that is
+  /// a barrier by itself.
+  dGeomID geom = nullptr;
   /// What events call the barrier; empty: the scene's name, or "barrier <number>".
   std::string name{};
   /// Which triangles are walls.
   WallSelection walls{};
   /// How these walls answer; empty: as the responder's options say.
   std::optional<ResponseSettings> response{};
+  /// How the walls of some materials answer, by the material's name in the scene. A name that the
+  /// scene does not have is an Error.
+  std::map<std::string, ResponseSettings> materials{};
 };
 
 }  // namespace bumper

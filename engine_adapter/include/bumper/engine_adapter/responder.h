@@ -2,11 +2,13 @@
 
 #include <ode/ode.h>
 
+#include <Eigen/Core>
 #include <memory>
 #include <span>
 #include <string>
 
 #include "bumper/engine_adapter/barrier.h"
+#include "bumper/engine_adapter/saved_state.h"
 #include "bumper/engine_adapter/vehicle.h"
 #include "bumper/response/impact_event.h"
 #include "bumper/scenes/scene.h"
@@ -19,10 +21,18 @@ enum class ContactSource {
   ode_contacts  ///< the mean of dCollide's contacts, as any ODE program has them; for comparison
 };
 
+/// How an impulse reaches the bodies (the paper's two choices of implementation). Both lead to the
+/// same motion.
+enum class Delivery {
+  force_pulse,  ///< constant forces and torques, added before the world steps
+  state_reset   ///< changes of the bodies' velocities, made before the world steps
+};
+
 struct ResponderOptions {
   /// How walls answer, unless their barrier says otherwise.
   ResponseSettings response{};
   ContactSource contactSource = ContactSource::exact_cut;
+  Delivery delivery = Delivery::force_pulse;
 };
 
 /// What a step could not do as usual; a set of bits.
@@ -31,8 +41,14 @@ inline constexpr unsigned none = 0;
 inline constexpr unsigned invalid_step = 1;  ///< step size not finite or negative: nothing was done
 inline constexpr unsigned not_finite = 2;    ///< a vehicle's state is not finite: it was left alone
 inline constexpr unsigned tilted = 4;  ///< a vehicle leans beyond its limit: its contacts are ODE's
-inline constexpr unsigned unsettled = 8;  ///< a vehicle still approached a wall after the last
-                                          ///< impulse that one step allows
+inline constexpr unsigned unsettled = 8;  ///< a vehicle had more impacts than one step allows, and
+                                          ///< was held where it was until the next one
+inline constexpr unsigned repeated_step = 16;    ///< no world step since the last step(): what that
+                                                 ///< one had added was taken back first
+inline constexpr unsigned other_step_size = 32;  ///< the world's step had another size than
+                                                 ///< step(h): what was not delivered is, now
+inline constexpr unsigned moved = 64;  ///< a vehicle was moved by other means than a world step:
+                                       ///< what was still to be delivered is dropped
 }  // namespace step_issue
 
 /// Replaces ODE's contact joints between vehicles and barriers by impulses, delivered as constant
@@ -41,17 +57,23 @@ inline constexpr unsigned unsettled = 8;  ///< a vehicle still approached a wall
 /// The responder borrows the world. It owns the contacts of a vehicle's bodies with walls at the
 /// heights of its band, as long as the vehicle stands upright, and answers them at the outline,
 /// which should therefore enclose the bodies' geoms. All other contacts stay ODE's. Each step:
-/// collide, add your own forces, step(h), step the world by the same h.
+/// collide, add your own forces, step(h), step the world by the same h. A step() too many, or a
+/// world step of another size, is noticed by the bodies' motion and put right; see step_issue.
+///
+/// An impact happens at its own time within a step, and its force pulse lasts until the same time
+/// of the next one. Meanwhile the body's velocity is not yet that after the impact: velocity() and
+/// yawRate() are.
 ///
 /// Vehicle frame: x forward, y left, z up in the chassis body's axes, origin at the mass centre of
 /// the chassis and its linked bodies. World: right-handed, z up, metres, double precision.
 ///
-/// Barriers stand still. Nothing here touches data, callbacks or collision bits of the
-/// application's geoms and bodies. A body, a geom, or the space that holds a barrier's new geom
-/// must be removed here before it is destroyed, or outlive the responder. Set-up calls throw Error
-/// and then change nothing; step(), claims() and keepUnclaimed() do not throw, unless memory runs
-/// out. A responder that was moved from can only be destroyed or assigned to. One responder belongs
-/// to one thread at a time; see trimeshLock() for several.
+/// Barriers stand still: a scene, or a geom of the application's. Nothing here touches data,
+/// callbacks or collision bits of the application's geoms and bodies. A body, a geom, or the space
+/// that holds a barrier's new geom must be removed here before it is destroyed, or outlive the
+/// responder. Set-up calls throw Error and then change nothing; step(), claims() and
+/// keepUnclaimed() do not throw, unless memory runs out. A responder that was moved from can only
+/// be destroyed or assigned to. One responder belongs to one thread at a time; see trimeshLock()
+/// for several.
 class Responder {
  public:
   /// Throws Error if the world is null, ODE is not in double precision, or a setting is invalid.
@@ -62,14 +84,16 @@ class Responder {
   Responder(Responder&& other) noexcept;
   Responder& operator=(Responder&& other) noexcept;
 
-  /// The walls of a scene, as a new trimesh geom in `options.space`. Other bodies collide with that
-  /// geom as with any other. The scene is copied. Throws Error if it is invalid or has no wall.
+  /// The walls of a scene, as a new trimesh geom in `options.space`, or as the shape of
+  /// `options.geom`. Other bodies collide with that geom as with any other. The scene is copied.
+  /// Throws Error if it is invalid or has no wall.
   BarrierId addBarrier(const Scene& scene, const BarrierOptions& options = {});
 
-  /// The walls of a trimesh geom that the application already has, road and walls in one. It must
-  /// stand still from now on. ODE keeps its vertices in single precision, and so they are read.
-  /// Throws Error if it is no trimesh, has a body, is registered already or has no wall.
-  BarrierId addBarrier(dGeomID trimesh, const BarrierOptions& options = {});
+  /// A geom that the application already has: the walls of a trimesh, road and walls in one, the
+  /// sides of a box, a plane, which is half of the world, or an upright cylinder. It must stand
+  /// still from now on. ODE keeps a trimesh's vertices in single precision, and so they are read.
+  /// Throws Error if it is of another class, has a body, is registered already or has no wall.
+  BarrierId addBarrier(dGeomID geom, const BarrierOptions& options = {});
 
   /// The geom that a barrier's contacts come with: the new one, or the application's own.
   [[nodiscard]] dGeomID geom(BarrierId barrier) const;
@@ -100,6 +124,18 @@ class Responder {
   /// events are valid until the next step(), the names in them as long as their owners are
   /// registered. Vehicles that ODE has put to sleep stay asleep.
   std::span<const ImpactEvent> step(double h);
+
+  /// A vehicle's velocity, m/s, and yaw rate about its own z axis, rad/s, with what is still to be
+  /// delivered: after the last impact, by the law.
+  [[nodiscard]] Eigen::Vector3d velocity(VehicleId vehicle) const;
+  [[nodiscard]] double yawRate(VehicleId vehicle) const;
+
+  /// What this responder remembers from step to step. Together with the bodies' states in ODE it
+  /// continues bit for bit.
+  [[nodiscard]] SavedState save() const;
+  /// Throws Error, and changes nothing, unless the same vehicles and barriers are registered as
+  /// when it was saved.
+  void restore(const SavedState& state);
 
   /// The sum of the steps taken, s.
   [[nodiscard]] double time() const;

@@ -41,6 +41,9 @@ struct VehicleOptions {
   /// Beyond this angle between the vehicle's z axis and the vertical, rad, in (0, π/2), Bumper
   /// leaves the vehicle's contacts to ODE: it is rolling over.
   double tiltLimit = 0.5235987755982988;  // 30°
+  /// Sets ODE's finite rotation mode on the bodies. With ODE's usual rotation update yaw angles are
+  /// off by (yaw rate · h)³ / 12 in each step; with this one, impacts are exact to rounding.
+  bool finiteRotation = false;
 };
 
 /// The parameters of a vehicle whose mass and yaw inertia are those of its ODE bodies, about their

@@ -5,13 +5,22 @@
 
 #include "bumper/response/force_pulse.h"
 #include "bumper/response/impact.h"
+#include "bumper/response/sweep.h"
 
 namespace bumper {
 
 /// An impact of this step and the response to it.
 struct StepImpact {
+  double time = 0.0;  ///< of the impact, s from the step's start
   Impact impact;
   ImpactResponse response;
+};
+
+/// A velocity and yaw rate for one step only. It eases an outline out of walls that it stands in,
+/// or holds a vehicle back.
+struct StepShift {
+  Vector2 velocity = Vector2::Zero();  ///< m/s
+  double yawRate = 0.0;                ///< rad/s
 };
 
 /// What a vehicle's walls do to it in one step.
@@ -19,8 +28,11 @@ struct StepOutcome {
   /// In the order in which they act; valid until the next call.
   std::span<const StepImpact> impacts;
   PlanarImpulse impulse;  ///< of all impacts together
-  PlanarMotion after;     ///< the motion with that impulse: the paper's other choice, state reset
-  bool settled = true;    ///< false: the vehicle still approached a wall when the bound was reached
+  PlanarMotion after;     ///< at the step's end; the paper's other choice, state reset
+  /// A motion for this step only: it is part of `after`'s position and yaw, not of its velocity.
+  StepShift shift;
+  /// False: after maxImpacts the vehicle was held where it was for the rest of the step.
+  bool settled = true;
 };
 
 /// One vehicle, one step: walls nearby in, impacts out. Knows no engine. Holds only scratch memory
@@ -29,56 +41,86 @@ class CollisionStep {
  public:
   CollisionStep();
 
-  /// At most this many impulses are applied in one step.
+  /// At most this many impulses are applied in one step. The last of them ends all approach, and
+  /// the vehicle is held where it is until the next step.
   static constexpr int maxImpacts = 32;
+  /// An outline is eased out of a wall no faster than this, m/s.
+  static constexpr double maxEaseOut = 2.0;
 
-  /// `walls` are those within the outline enlarged by approach speed × penetration time on every
-  /// side. `motion` is the vehicle's position now with the velocity that it would have at the
-  /// step's end without walls. Walls that the outline overlaps while approaching them push back,
-  /// the one touched first before the others, until nothing approaches.
+  /// `walls` are those within reach() of the outline. `motion` is the vehicle's position now with
+  /// the velocity that it would have in this step of `h` seconds without walls.
+  ///
+  /// The outline is swept along its motion. At each first touch, and for walls that it stands in at
+  /// once, impulses push back until nothing that touches approaches; then the sweep goes on with
+  /// the new velocity. With h = 0 only what touches already is answered. Walls of Method::paper are
+  /// answered as the paper does: once, where the step begins, by their overlap.
   StepOutcome resolve(const VehicleParameters& vehicle, const PlanarMotion& motion,
-                      std::span<const WallSegment> walls);
+                      std::span<const WallSegment> walls, double h);
+
+  /// How far any point of the outline can come in a step of `h` seconds, whatever it hits, and how
+  /// far beyond that walls take part in a contact point, m.
+  static double reach(const VehicleParameters& vehicle, const PlanarMotion& motion,
+                      double penetrationTime, double h);
 
  private:
   /// One point of the outline, a wall's normal there, and how fast they close, m/s.
   struct Approach {
-    ContactPoint contact;
-    Vector2 normal;
+    ContactPoint contact{};
+    Vector2 normal = Vector2::Zero();
     double speed = 0.0;
   };
 
   /// A wall nearby, and what is known of the outline in it.
   struct Wall {
-    Overlap overlap;
-    const ResponseSettings* settings = nullptr;
-    Vector2 startPoint;
-    Vector2 endPoint;
-    bool touched = false;  ///< the outline overlaps it
-    bool hidden = false;   ///< … but it lies behind another touched wall
-    bool struck = false;   ///< … and `contact` has had an impulse
-    bool passed = false;   ///< … that lets the vehicle through
-    Approach contact;
+    WallSegment segment;
+    Overlap overlap{};
+    bool touched = false;    ///< the outline touches or overlaps it
+    bool hidden = false;     ///< … but it lies behind another touched wall
+    bool struck = false;     ///< … and `contact` has had an impulse at this instant
+    bool passed = false;     ///< it lets the vehicle through, or takes part no more in this step
+    double unheardOf = 0.0;  ///< touches before this time were looked at, to no effect
+    Approach contact{};
   };
 
   /// The next impulse to apply; none if `wall` is null.
   struct Next {
     Wall* wall = nullptr;
-    Approach at;
+    Approach at{};
   };
+
+  /// The wall that is touched next; none if `wall` is null.
+  struct NextTouch {
+    double time = 0.0;
+    Wall* wall = nullptr;
+  };
+
+  enum class Settled { without_impulse, by_impulses, for_now };
 
   void mergeWalls(std::span<const WallSegment> walls, const Vector2& centre);
   void findTouched();
+  [[nodiscard]] std::optional<Overlap> overlapWith(const WallSegment& wall) const;
+  [[nodiscard]] bool isShielded(const Overlap& end) const;
   void findHidden();
+  [[nodiscard]] Vector2 easeOut(double h) const;
+  Settled settle(double time);
+  void answer(const Next& next, double time, double restitutionScale);
+  void answerTogether(double time);
+  void record(const Wall& wall, const Approach& at, double time, const ImpactResponse& response);
+  NextTouch nextTouch(double from, double until);
+
   Next firstNewWall();
   Next fastestStruckWall();
   [[nodiscard]] Approach approach(const ContactPoint& contact, const Vector2& normal) const;
   [[nodiscard]] Approach touching(const Wall& wall) const;
   [[nodiscard]] Approach middleOfChain(const Wall& struck, double penetration) const;
   [[nodiscard]] double sinceTouch(const Wall& wall) const;
+  [[nodiscard]] int wallAt(const Wall& wall, const Vector2& point) const;
 
   // Of the step that is being resolved.
+  VehicleParameters vehicle_;
   Outline outline_{VehicleParameters{}};
   PlanarMotion motion_;
+  std::span<const WallSegment> given_;
 
   std::vector<WallSegment> merged_;
   std::vector<Wall> walls_;

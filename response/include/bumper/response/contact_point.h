@@ -27,43 +27,66 @@ struct Outline {
   [[nodiscard]] std::array<Vector2, 4> corners() const;
 };
 
-/// A piece of a wall as a vehicle's yaw plane cuts it.
+/// A piece of a wall as a vehicle's yaw plane cuts it: a segment, or the round of a post.
 struct WallSegment {
-  Vector2 start = Vector2::Zero();  ///< m
-  Vector2 end = Vector2::Zero();    ///< m
-  /// Unit, at right angles to the segment, to either side: which side the vehicle comes from is
-  /// decided when they meet.
+  Vector2 start = Vector2::Zero();  ///< m; of a post the centre
+  Vector2 end = Vector2::Zero();    ///< m; of a post the centre too
+  /// Unit, at right angles to the segment, to either side unless `solid`: which side the vehicle
+  /// comes from is decided when they meet. Of no meaning for a post.
   Vector2 normal = Vector2::Zero();
+  /// Of a post, m; 0 for a segment.
+  double radius = 0.0;
+  /// What lies behind the normal is solid: only the front can be hit.
+  bool solid = false;
   /// The caller's own number for the wall; comes back in the impact.
   int id = -1;
+  /// The caller's number for what breaks as one.
+  int group = 0;
   /// How this wall answers; not owned, never null when it reaches a collision step.
   const ResponseSettings* settings = nullptr;
+
+  [[nodiscard]] bool isPost() const { return radius > 0.0; }
 };
 
-/// The outline and a wall that it overlaps.
+/// Points of an outline and a wall that are no further apart than this touch, m.
+inline constexpr double touchTolerance = 1e-9;
+
+/// The outline and a wall that it overlaps, as seen along a contact normal.
 struct Overlap {
-  Vector2 normal;        ///< unit, out of the wall towards the mass centre
-  double offset = 0.0;   ///< normal · p of the wall's line
-  double start = 0.0;    ///< tangent · p where the wall begins; the tangent is z × normal
-  double end = 0.0;      ///< … and where it ends, start ≤ end
-  double a = 0.0;        ///< the line of interference, a ≤ b (Figure 2): the part of the wall
-  double b = 0.0;        ///< inside the outline
-  double depth = 0.0;    ///< of the outline's deepest point over the wall, m, ≥ 0
+  Vector2 normal = Vector2::Zero();  ///< unit, out of the wall into the vehicle
+  double offset = 0.0;               ///< normal · p of the wall's line or, `byEnd`, of its end
+  double start = 0.0;  ///< tangent · p where the wall begins; the tangent is z × normal
+  double end = 0.0;    ///< … and where it ends, start ≤ end
+  Vector2 insideFrom =
+      Vector2::Zero();  ///< the line of interference (Figure 2): the part of the wall inside
+  Vector2 insideTo = Vector2::Zero();  ///< the outline, m
+  double depth = 0.0;                  ///< of the outline's deepest point over the wall, m
   double deepest = 0.0;  ///< tangent · p of that point, or of the middle of a flush side
+  bool byEnd = false;    ///< an end of the wall, or a post, meets a side or a corner of the
+                         ///< outline: the normal is not the wall's own
 };
 
-/// A wall's line as seen from `position`: normal, offset, start and end of an overlap, no more.
+/// A wall's line as seen from `position`: normal, offset, start and end of an overlap, no more. The
+/// normal points to the side of `position`, unless the wall is solid.
 Overlap lineOf(const WallSegment& wall, const Vector2& position);
 
 /// The overlap of the outline, placed at `position` and `yaw`, with a wall; nothing if the wall
-/// does not pass through it.
+/// does not pass through it. The normal is the wall's own, towards the mass centre: the paper's
+/// view.
 std::optional<Overlap> findOverlap(const Outline& outline, const Vector2& position, double yaw,
                                    const WallSegment& wall);
 
+/// The same within touchTolerance, and along the direction in which outline and wall overlap least:
+/// a face of the wall that a corner or side meets, or a side of the outline that an end of the wall
+/// meets.
+std::optional<Overlap> findTouch(const Outline& outline, const Vector2& position, double yaw,
+                                 const WallSegment& wall);
+
 /// Where the response acts.
 struct ContactPoint {
-  Vector2 point;  ///< on the wall, m
-  Vector2 arm;    ///< mass centre to the body's contact point, m, in the plane's frame
+  Vector2 point = Vector2::Zero();  ///< on the wall, m
+  Vector2 arm =
+      Vector2::Zero();  ///< mass centre to the body's contact point, m, in the plane's frame
 };
 
 /// The midpoint of the line of interference (Figure 2) at a given depth of penetration: the outline
@@ -72,29 +95,35 @@ struct ContactPoint {
 /// is the paper's a–b midpoint; with 0 it is the point of first touch. A penetration beyond the
 /// mass centre is taken as one at the mass centre.
 ContactPoint contactPoint(const Outline& outline, const Vector2& position, double yaw,
-                          const Overlap& overlap, double penetration);
+                          const WallSegment& wall, const Overlap& overlap, double penetration);
 
 /// How far the outline is to be moved along the normal, m, so that its deepest point is
 /// `penetration` inside the wall: within bounds as contactPoint() says.
 double moveTo(const Overlap& overlap, const Vector2& position, double penetration);
 
-/// The part of a wall's line inside the outline.
+/// The part of a segment inside the outline.
 struct Interference {
   bool empty = true;
-  double length = 0.0;  ///< m
-  ContactPoint middle;
+  Vector2 from = Vector2::Zero();
+  Vector2 to = Vector2::Zero();
+
+  [[nodiscard]] double length() const { return (to - from).norm(); }
+  [[nodiscard]] Vector2 middle() const { return 0.5 * (from + to); }
 };
 Interference interference(const Outline& outline, const Vector2& position, double yaw,
-                          const Overlap& overlap);
+                          const WallSegment& wall);
 
-/// Up to four contact points.
+/// Up to six contact points.
 struct ContactPoints {
-  std::array<ContactPoint, 4> points;
+  std::array<ContactPoint, 6> points;
   std::size_t count = 0;
+
+  void add(const ContactPoint& point) { points[count++] = point; }
 };
 
-/// The outline's corners that lie behind the wall, over its length.
-ContactPoints cornersBehind(const Outline& outline, const Vector2& position, double yaw,
-                            const Overlap& overlap);
+/// All that touches or overlaps along the overlap's normal: the outline's corners behind the wall,
+/// over its length, and the wall's ends behind the outline's sides.
+ContactPoints touchingPoints(const Outline& outline, const Vector2& position, double yaw,
+                             const WallSegment& wall, const Overlap& overlap);
 
 }  // namespace bumper

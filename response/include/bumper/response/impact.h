@@ -40,4 +40,8 @@ ImpactResponse respond(const Impact& impact, const PlanarMotion& motion, double 
                        double yawInertia, const ResponseSettings& settings,
                        double restitutionScale = 1.0);
 
+/// The same for an impulse that no law asked for: it ends the approach at several points at once.
+ImpactResponse plainResponse(const Impact& impact, const PlanarMotion& motion, double mass,
+                             double yawInertia, const PlanarImpulse& impulse);
+
 }  // namespace bumper

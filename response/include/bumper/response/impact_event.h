@@ -8,14 +8,19 @@
 namespace bumper {
 
 enum class EventPhase {
-  impact  ///< one impulse with an approach speed above the settings' rest speed
+  impact,         ///< one impulse with an approach speed above the settings' rest speed, or above
+                  ///< five times that while a contact lasts
+  contact_begin,  ///< slower ones, step by step, begin: the vehicle leans on the barrier or scrapes
+                  ///< along it
+  contact_end     ///< they have ended; impulses, energyLost and duration are those of the whole
+                  ///< contact
 };
 
 /// One impact as an application sees it. SI units; vectors in the world frame (right-handed, z up)
 /// unless they say otherwise; yaw rates about the vehicle's own z axis, positive turning left. The
 /// names stay valid as long as the vehicle and the barrier are registered.
 struct ImpactEvent {
-  double time = 0.0;  ///< of the impact, counted by the steps taken
+  double time = 0.0;  ///< of the impact within its step, counted by the steps taken, s
   EventPhase phase = EventPhase::impact;
   std::string_view vehicle;
   std::string_view barrier;
@@ -43,6 +48,8 @@ struct ImpactEvent {
   Eigen::Vector3d velocityAfter = Eigen::Vector3d::Zero();
   double energyAsked = 1.0;  ///< P; NaN under the restitution law
   double energyRatio = 1.0;
+  double energyLost = 0.0;  ///< yaw-plane energy, J
+  double duration = 0.0;    ///< of a contact that has ended, s
   EnergyOutcome outcome = EnergyOutcome::not_asked;
   Regime regime = Regime::separating;
 };

@@ -37,6 +37,10 @@ struct ResponseSettings {
   /// The contact point is found at the depth that the approach speed reaches in this time, s, ≥ 0.
   /// Method::bumper only; response/README.md says how the default was chosen.
   double penetrationTime = 0.0025;
+  /// Length of the force pulse, s, ≥ 0, which starts at the impact; 0: one step. With a longer one
+  /// the wall is not answered again while its pulse runs, and the vehicle goes into it by about
+  /// v_n · contactTime / (2 (1 + e)).
+  double contactTime = 0.0;
   /// Restitution fades to 0 as the approach speed falls from this to 0, m/s, ≥ 0, so that a
   /// vehicle that leans on a wall comes to rest. Slower contacts are no events.
   double restSpeed = 0.1;

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "bumper/engine_adapter/barrier.h"
+#include "bumper/engine_adapter/vehicle.h"
+#include "bumper/response/force_pulse.h"
+
+/// What a responder remembers from step to step, as plain data. Times are Responder::time(), s;
+/// world frame unless said otherwise.
+namespace bumper {
+
+/// The walls with one of a barrier's settings, which a vehicle passes through: they broke, and the
+/// outline has not left them yet, or their long force pulse still runs.
+struct Passage {
+  BarrierId barrier;
+  int settings = 0;    ///< number of the settings in the barrier
+  double until = 0.0;  ///< end of the pulse; 0 if they broke
+};
+
+/// A contact that has begun and not ended.
+struct SustainedContact {
+  BarrierId barrier;
+  int wall = 0;  ///< number of the wall in the barrier that was touched last
+  double begun = 0.0;
+  double last = 0.0;
+  double impulseNormal = 0.0;   ///< N s, the sum
+  double impulseTangent = 0.0;  ///< N s, the sum
+  double energyLost = 0.0;      ///< J, the sum
+  Eigen::Vector3d contact = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+};
+
+/// What the last step() added to a vehicle's bodies, and the chassis' state then.
+struct LastDelivery {
+  bool any = false;
+  double step = 0.0;      ///< s
+  PlanarImpulse impulse;  ///< in the vehicle's axes then
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d turning = Eigen::Vector3d::Zero();  ///< rad/s
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+};
+
+/// The motion that the last step's known forces should have led to.
+struct Expectation {
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  double yawRate = 0.0;
+  double step = 0.0;  ///< s; 0: nothing is expected
+};
+
+/// All that is remembered of a vehicle.
+struct VehicleMemory {
+  VehicleId vehicle;
+  ForcePulse pulse;  ///< what is still to be delivered, in the vehicle's axes at the last step
+  LastDelivery delivery;
+  Expectation expectation;
+  std::vector<Passage> passages;
+  std::vector<SustainedContact> contacts;
+};
+
+/// All that a responder remembers: Responder::save() and restore().
+struct SavedState {
+  double time = 0.0;
+  std::vector<VehicleMemory> vehicles;
+};
+
+}  // namespace bumper

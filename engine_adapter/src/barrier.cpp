@@ -1,0 +1,154 @@
+#include "barrier.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "bumper/response/error.h"
+#include "ode_vectors.h"
+
+namespace bumper {
+
+namespace {
+
+// A contact whose normal is steeper than this is one with a top.
+constexpr double steepNormal = 0.7;
+
+// The sides of a box, wound so that their normals point outwards.
+Scene sceneOfBox(dGeomID box, const std::string& name) {
+  dVector3 lengths;
+  dGeomBoxGetLengths(box, lengths);
+  const Eigen::Vector3d half = 0.5 * toVector(lengths);
+  const Eigen::Vector3d place = toVector(dGeomGetPosition(box));
+  const Eigen::Matrix3d axes = toMatrix(dGeomGetRotation(box));
+  Scene scene;
+  scene.name = name;
+  scene.meshes.push_back({.name = name, .material = "", .colour = {0.7F, 0.7F, 0.7F}});
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3d corner((i & 1) != 0 ? half.x() : -half.x(),
+                                 (i & 2) != 0 ? half.y() : -half.y(),
+                                 (i & 4) != 0 ? half.z() : -half.z());
+    scene.vertices.emplace_back(place + axes * corner);
+  }
+  constexpr std::array<std::array<std::uint32_t, 4>, 6> sides = {
+      {{1, 3, 7, 5}, {2, 0, 4, 6}, {3, 2, 6, 7}, {0, 1, 5, 4}, {4, 5, 7, 6}, {2, 3, 1, 0}}};
+  for (const auto& side : sides) {
+    scene.triangles.push_back({.corners = {side[0], side[1], side[2]}, .mesh = 0});
+    scene.triangles.push_back({.corners = {side[0], side[2], side[3]}, .mesh = 0});
+  }
+  return scene;
+}
+
+}  // namespace
+
+Barrier::Barrier(BarrierId id, const Scene& scene, const BarrierOptions& options, std::string name,
+                 BarrierMesh::Query query, const ResponseSettings& usual)
+    : id_(id), name_(std::move(name)) {
+  mesh_.emplace(scene, options, name_, query);
+  geom_ = mesh_->geom();
+  keepSettings(options, usual);
+}
+
+Barrier::Barrier(BarrierId id, dGeomID geom, const BarrierOptions& options, std::string name,
+                 BarrierMesh::Query query, const ResponseSettings& usual)
+    : id_(id), name_(std::move(name)), geom_(geom) {
+  switch (dGeomGetClass(geom)) {
+    case dTriMeshClass:
+      mesh_.emplace(geom, options, name_, query);
+      break;
+    case dBoxClass:
+      mesh_.emplace(sceneOfBox(geom, name_), geom, options, name_, query);
+      break;
+    case dPlaneClass:
+    case dCylinderClass:
+      primitive_.emplace(geom, options.walls.maxNormalUp);
+      break;
+    default:
+      throw Error("addBarrier: the geom is of ODE class " + std::to_string(dGeomGetClass(geom)) +
+                  ": a trimesh, box, plane or cylinder can be a barrier as it is; of another the "
+                  "shape must be given as a scene");
+  }
+  keepSettings(options, usual);
+}
+
+Barrier::Barrier(BarrierId id, dGeomID geom, const Scene& shape, const BarrierOptions& options,
+                 std::string name, BarrierMesh::Query query, const ResponseSettings& usual)
+    : id_(id), name_(std::move(name)), geom_(geom) {
+  mesh_.emplace(shape, geom, options, name_, query);
+  keepSettings(options, usual);
+}
+
+void Barrier::keepSettings(const BarrierOptions& options, const ResponseSettings& usual) {
+  usual_ = &usual;
+  if (mesh_) report_ = mesh_->report();
+  if (primitive_)
+    report_ = {.walls = 1, .lowestFoot = primitive_->foot(), .highestTop = primitive_->top()};
+  // Number 0, then one for each material that has its own.
+  own_.push_back(options.response.value_or(usual));
+  if (options.response) usual_ = nullptr;
+  const std::vector<std::string> materials =
+      mesh_ ? mesh_->materials() : std::vector<std::string>{""};
+  settingsOfMesh_.assign(materials.size(), 0);
+  for (const auto& [material, settings] : options.materials) {
+    const int number = static_cast<int>(own_.size());
+    bool known = false;
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+      if (materials[i] != material) continue;
+      settingsOfMesh_[i] = number;
+      known = true;
+    }
+    if (!known) {
+      std::string message = "BarrierOptions::materials: barrier '" + name_ + "' has no material '" +
+                            material + "'; it has";
+      for (const std::string& each : materials) message += " '" + each + "'";
+      throw Error(message);
+    }
+    own_.push_back(settings);
+  }
+}
+
+int Barrier::wallCount() const { return mesh_ ? static_cast<int>(mesh_->walls().size()) : 1; }
+
+const std::string& Barrier::materialOf(int wall) const {
+  static const std::string none;
+  return mesh_ ? mesh_->materials()[mesh_->meshOf(wall)] : none;
+}
+
+int Barrier::triangleOf(int wall) const {
+  // The triangles of a box are Bumper's own.
+  if (!mesh_ || mesh_->isSolid()) return -1;
+  return mesh_->walls()[static_cast<std::size_t>(wall)].triangle;
+}
+
+int Barrier::settingsNumberOf(int wall) const {
+  return mesh_ ? settingsOfMesh_[mesh_->meshOf(wall)] : settingsOfMesh_.front();
+}
+
+const ResponseSettings& Barrier::settings(int number) const {
+  return number == 0 && usual_ != nullptr ? *usual_ : own_[static_cast<std::size_t>(number)];
+}
+
+double Barrier::longestPenetrationTime() const {
+  double longest = settings(0).penetrationTime;
+  for (const ResponseSettings& each : own_) longest = std::max(longest, each.penetrationTime);
+  return longest;
+}
+
+WallPart Barrier::partAt(int triangle, const Eigen::Vector3d& normal) const {
+  if (mesh_ && dGeomGetClass(geom_) == dTriMeshClass) return mesh_->partOf(triangle);
+  return {.kind = std::abs(normal.z()) > steepNormal ? WallPart::Kind::cap : WallPart::Kind::face,
+          .foot = report_.lowestFoot,
+          .top = report_.highestTop};
+}
+
+bool Barrier::hasWallsOnly() const {
+  if (primitive_) return !primitive_->isPost();
+  return dGeomGetClass(geom_) == dTriMeshClass && mesh_->hasWallsOnly();
+}
+
+double Barrier::highestFoot() const { return mesh_ ? mesh_->highestFoot() : primitive_->foot(); }
+
+double Barrier::lowestTop() const { return mesh_ ? mesh_->lowestTop() : primitive_->top(); }
+
+}  // namespace bumper

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <ode/ode.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "barrier_mesh.h"
+#include "bumper/engine_adapter/barrier.h"
+#include "primitive_wall.h"
+
+namespace bumper {
+
+/// What stands behind a BarrierId: triangles, or a plane or cylinder of ODE's.
+class Barrier {
+ public:
+  /// A scene, as a new geom.
+  Barrier(BarrierId id, const Scene& scene, const BarrierOptions& options, std::string name,
+          BarrierMesh::Query query, const ResponseSettings& usual);
+  /// A geom of the application's: trimesh, box, plane or cylinder.
+  Barrier(BarrierId id, dGeomID geom, const BarrierOptions& options, std::string name,
+          BarrierMesh::Query query, const ResponseSettings& usual);
+  /// A geom of the application's whose shape is given as a scene.
+  Barrier(BarrierId id, dGeomID geom, const Scene& shape, const BarrierOptions& options,
+          std::string name, BarrierMesh::Query query, const ResponseSettings& usual);
+
+  [[nodiscard]] BarrierId id() const { return id_; }
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] dGeomID geom() const { return geom_; }
+  [[nodiscard]] const WallReport& report() const { return report_; }
+
+  /// Null for a plane or cylinder.
+  [[nodiscard]] const BarrierMesh* mesh() const { return mesh_ ? &*mesh_ : nullptr; }
+  /// Null for triangles.
+  [[nodiscard]] const PrimitiveWall* primitive() const {
+    return primitive_ ? &*primitive_ : nullptr;
+  }
+
+  [[nodiscard]] int wallCount() const;
+  [[nodiscard]] const std::string& materialOf(int wall) const;
+  [[nodiscard]] int triangleOf(int wall) const;  ///< −1 if the geom has none
+
+  /// The number of the settings that a wall answers with; usual ones are number 0.
+  [[nodiscard]] int settingsNumberOf(int wall) const;
+  [[nodiscard]] const ResponseSettings& settings(int number) const;
+  [[nodiscard]] int settingsCount() const { return static_cast<int>(own_.size()); }
+  [[nodiscard]] double longestPenetrationTime() const;
+
+  /// What a contact of geom() with something else is: the number of the triangle or −1, and the
+  /// contact's normal.
+  [[nodiscard]] WallPart partAt(int triangle, const Eigen::Vector3d& normal) const;
+  /// Every contact of geom() is one with a wall's face.
+  [[nodiscard]] bool hasWallsOnly() const;
+  /// The highest foot and the lowest top of all walls, m.
+  [[nodiscard]] double highestFoot() const;
+  [[nodiscard]] double lowestTop() const;
+
+ private:
+  void keepSettings(const BarrierOptions& options, const ResponseSettings& usual);
+
+  BarrierId id_;
+  std::string name_;
+  dGeomID geom_ = nullptr;
+  WallReport report_;
+  std::optional<BarrierMesh> mesh_;
+  std::optional<PrimitiveWall> primitive_;
+  // Barriers that follow the responder's settings form one wall where they meet: number 0 is then
+  // the responder's own object, not a copy.
+  const ResponseSettings* usual_ = nullptr;
+  std::vector<ResponseSettings> own_;
+  std::vector<int> settingsOfMesh_;
+};
+
+}  // namespace bumper

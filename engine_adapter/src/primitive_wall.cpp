@@ -1,0 +1,69 @@
+#include "primitive_wall.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "bumper/response/error.h"
+#include "ode_vectors.h"
+
+namespace bumper {
+
+PrimitiveWall::PrimitiveWall(dGeomID geom, double maxNormalUp) {
+  if (dGeomGetClass(geom) == dPlaneClass) {
+    dVector4 plane;
+    dGeomPlaneGetParams(geom, plane);
+    direction_ = toVector(plane);
+    place_ = plane[3] * direction_;
+    if (std::abs(direction_.z()) > maxNormalUp) {
+      throw Error("addBarrier: the plane is flatter than WallSelection::maxNormalUp allows");
+    }
+    foot_ = -std::numeric_limits<double>::infinity();
+    top_ = std::numeric_limits<double>::infinity();
+    return;
+  }
+  dReal radius = 0.0;
+  dReal length = 0.0;
+  dGeomCylinderGetParams(geom, &radius, &length);
+  place_ = toVector(dGeomGetPosition(geom));
+  direction_ = toMatrix(dGeomGetRotation(geom)).col(2);
+  if (direction_.z() < 0.0) direction_ = -direction_;
+  radius_ = radius;
+  if (direction_.head<2>().norm() > maxNormalUp) {
+    throw Error("addBarrier: the cylinder leans further than WallSelection::maxNormalUp allows");
+  }
+  foot_ = place_.z() - 0.5 * length * direction_.z();
+  top_ = place_.z() + 0.5 * length * direction_.z();
+}
+
+std::optional<WallSegment> PrimitiveWall::cut(const VehicleState& state, double low, double high,
+                                              double reach) const {
+  const Eigen::Vector3d place = state.axes.transpose() * (place_ - state.massCentre);
+  const Eigen::Vector3d direction = state.axes.transpose() * direction_;
+  WallSegment wall;
+  if (isPost()) {
+    const double footHeight = place.z() + (foot_ - place_.z()) * state.up().z();
+    const double topHeight = place.z() + (top_ - place_.z()) * state.up().z();
+    if (topHeight < low || footHeight > high) return std::nullopt;
+    const Vector2 centre = (place - place.z() / direction.z() * direction).head<2>();
+    if (centre.norm() > reach + radius_) return std::nullopt;
+    wall.start = wall.end = centre;
+    wall.radius = radius_;
+    return wall;
+  }
+  const double planar = direction.head<2>().norm();
+  wall.normal = direction.head<2>() / planar;
+  // The foremost line within the band.
+  const double offset =
+      (direction.dot(place) - std::min(direction.z() * low, direction.z() * high)) / planar;
+  if (-offset > reach) return std::nullopt;
+  const Vector2 foot = offset * wall.normal;
+  const Vector2 along = (2.0 * reach + std::abs(offset)) * turnedLeft(wall.normal);
+  wall.start = foot - along;
+  wall.end = foot + along;
+  wall.solid = true;
+  return wall;
+}
+
+}  // namespace bumper

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <ode/ode.h>
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "bumper/response/contact_point.h"
+#include "vehicle_bodies.h"
+
+namespace bumper {
+
+/// An ODE plane, which is half of the world, or an upright ODE cylinder, a post.
+class PrimitiveWall {
+ public:
+  /// Throws Error if the geom's class is another or it leans too far to be a wall:
+  /// `maxNormalUp` as in WallSelection.
+  PrimitiveWall(dGeomID geom, double maxNormalUp);
+
+  /// Where a vehicle's yaw plane cuts it within `reach` of the mass centre, m, between the heights
+  /// low and high of the vehicle's z axis; nothing if it lies elsewhere.
+  [[nodiscard]] std::optional<WallSegment> cut(const VehicleState& state, double low, double high,
+                                               double reach) const;
+
+  [[nodiscard]] double foot() const { return foot_; }
+  [[nodiscard]] double top() const { return top_; }
+  [[nodiscard]] bool isPost() const { return radius_ > 0.0; }
+
+ private:
+  Eigen::Vector3d place_ = Eigen::Vector3d::Zero();      // a point of the plane, or the middle
+  Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();  // the plane's normal, or the post's axis
+  double radius_ = 0.0;
+  double foot_ = 0.0;
+  double top_ = 0.0;
+};
+
+}  // namespace bumper

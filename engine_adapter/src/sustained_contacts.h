@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "bumper/engine_adapter/saved_state.h"
+
+namespace bumper {
+
+/// A contact has ended when there was no impulse for this time, s.
+inline constexpr double contactPause = 0.5;
+
+/// While a contact lasts, an impulse is an impact of its own above this many rest speeds.
+inline constexpr double impactInContact = 5.0;
+
+/// One impulse on a vehicle, as far as a contact counts it.
+struct ContactShare {
+  BarrierId barrier;
+  int wall = 0;
+  double impulseNormal = 0.0;
+  double impulseTangent = 0.0;
+  double energyLost = 0.0;
+  Eigen::Vector3d contact = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+};
+
+/// Whether a vehicle is in contact with a barrier.
+bool isInContact(const std::vector<SustainedContact>& contacts, BarrierId barrier);
+
+/// Adds an impulse to the vehicle's contact with that barrier. Returns whether it began with it;
+/// `mayBegin` false: it counts only if there is such a contact.
+bool addToContact(std::vector<SustainedContact>& contacts, const ContactShare& share, double time,
+                  bool mayBegin);
+
+}  // namespace bumper

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <limits>
+
+#include "bumper/response/contact_point.h"
+
+namespace bumper {
+
+/// A contact point that approaches more slowly than this, m/s, is at rest to rounding.
+inline constexpr double restTolerance = 1e-9;
+
+/// Where free flight at constant velocity and yaw rate has carried a vehicle after some time, s.
+PlanarMotion advanced(PlanarMotion motion, double time);
+
+/// What never happens.
+inline constexpr double never = std::numeric_limits<double>::infinity();
+
+/// The first time in [from, until], s, at which a point of the outline and a point of the wall
+/// touch while they approach each other: a corner and a face, an end and a side, a post and either.
+/// `motion` is the vehicle's at time 0. `touch` is what findTouch() says at `from`, or null.
+/// `never` if there is none. Exact to rounding, whatever the speed and the step; only points that
+/// slide over each other already are not looked at again before a `pause` is over, s.
+double timeOfTouch(const Outline& outline, const PlanarMotion& motion, const WallSegment& wall,
+                   const Overlap* touch, double from, double until, double pause);
+
+}  // namespace bumper
