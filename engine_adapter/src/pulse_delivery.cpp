@@ -22,7 +22,11 @@ LastStep lookBack(const LastDelivery& delivery, dBodyID chassis, double& worldSt
   if (position == delivery.position && velocity == delivery.velocity &&
       toVector(dBodyGetAngularVel(chassis)) == delivery.turning &&
       toMatrix(dBodyGetRotation(chassis)) == delivery.axes) {
-    return LastStep::not_taken;
+    // It may have stood still; but then ODE has cleared the force.
+    const Eigen::Vector3d force = toVector(dBodyGetForce(chassis));
+    const bool stillThere =
+        (force - delivery.forceAfter).norm() <= (force - delivery.forceBefore).norm();
+    return stillThere ? LastStep::not_taken : LastStep::as_told;
   }
   // Damping acts on the velocity after the body was moved with it.
   if (dBodyGetLinearDamping(chassis) > 0.0) return LastStep::as_told;
@@ -42,6 +46,8 @@ LastStep lookBack(const LastDelivery& delivery, dBodyID chassis, double& worldSt
 
 void deliver(const VehicleBodies& bodies, const VehicleState& state, const PlanarImpulse& impulse,
              double h, Delivery how, LastDelivery& delivery) {
+  dBodyID chassis = bodies.chassis();
+  delivery.forceBefore = toVector(dBodyGetForce(chassis));
   if (!impulse.linear.isZero(0.0) || impulse.angular != 0.0) {
     if (how == Delivery::force_pulse) {
       bodies.push(state, over(impulse, h));
@@ -49,8 +55,8 @@ void deliver(const VehicleBodies& bodies, const VehicleState& state, const Plana
       bodies.kick(state, impulse);
     }
   }
-  dBodyID chassis = bodies.chassis();
   delivery.any = true;
+  delivery.forceAfter = toVector(dBodyGetForce(chassis));
   delivery.step = h;
   delivery.impulse = impulse;
   delivery.position = toVector(dBodyGetPosition(chassis));

@@ -85,7 +85,7 @@ struct Responder::Implementation {
   void answerContacts(Vehicle& vehicle, const VehicleState& state, PlanarMotion motion, double h);
   void give(Vehicle& vehicle, const VehicleState& state, double h);
   void report(Vehicle& vehicle, const VehicleState& state, const Barrier& barrier, int wall,
-              double start, const Impact& impact, const ImpactResponse& response);
+              const StepImpact& each);
   void endContacts(Vehicle& vehicle);
 };
 

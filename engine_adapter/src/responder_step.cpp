@@ -102,10 +102,11 @@ void Responder::Implementation::reconsiderLastStep() {
 }
 
 void Responder::Implementation::report(Vehicle& vehicle, const VehicleState& state,
-                                       const Barrier& barrier, int wall, double start,
-                                       const Impact& impact, const ImpactResponse& response) {
+                                       const Barrier& barrier, int wall, const StepImpact& each) {
+  const Impact& impact = each.impact;
+  const ImpactResponse& response = each.response;
   ImpactEvent event;
-  event.time = time + start;
+  event.time = time + each.time;
   event.vehicle = vehicle.name;
   event.barrier = barrier.name();
   event.triangle = barrier.triangleOf(wall);
@@ -139,7 +140,7 @@ void Responder::Implementation::report(Vehicle& vehicle, const VehicleState& sta
   const double soft = isInContact(vehicle.memory.contacts, barrier.id())
                           ? impactInContact * settings.restSpeed
                           : settings.restSpeed;
-  const bool hard = response.approachSpeed > soft;
+  const bool hard = response.approachSpeed > soft && !each.slides;
   const bool begins = addToContact(vehicle.memory.contacts,
                                    {.barrier = barrier.id(),
                                     .wall = wall,
@@ -156,8 +157,17 @@ void Responder::Implementation::report(Vehicle& vehicle, const VehicleState& sta
 }
 
 void Responder::Implementation::endContacts(Vehicle& vehicle) {
+  Outline around = vehicle.query.outline();
+  around.front += contactDistance;
+  around.rear += contactDistance;
+  around.halfWidth += contactDistance;
   std::erase_if(vehicle.memory.contacts, [&](const SustainedContact& contact) {
     if (time - contact.last < contactPause) return false;
+    const bool near = std::any_of(segments.begin(), segments.end(), [&](const WallSegment& wall) {
+      return wall.group == contact.barrier.value &&
+             findTouch(around, Vector2::Zero(), 0.0, wall).has_value();
+    });
+    if (near) return false;
     const Barrier& barrier = *barriers[static_cast<std::size_t>(contact.barrier.value)];
     ImpactEvent event;
     event.time = contact.last;
@@ -240,7 +250,7 @@ void Responder::Implementation::answerCuts(Vehicle& vehicle, const VehicleState&
     if (each.response.brokeThrough) {
       vehicle.memory.passages.push_back({.barrier = barrier.id(), .settings = number});
     }
-    report(vehicle, state, barrier, wall, each.time, each.impact, each.response);
+    report(vehicle, state, barrier, wall, each);
   }
 }
 
@@ -254,7 +264,7 @@ void Responder::Implementation::answerContacts(Vehicle& vehicle, const VehicleSt
         respond(*impact, motion, state.mass, state.yawInertia,
                 barrier->settings(barrier->settingsNumberOf(impact->wall)));
     vehicle.memory.pulse.add(response.impulse, 0.0, h);
-    report(vehicle, state, *barrier, impact->wall, 0.0, *impact, response);
+    report(vehicle, state, *barrier, impact->wall, {.impact = *impact, .response = response});
     motion = response.after;
   }
 }
@@ -274,7 +284,6 @@ void Responder::Implementation::give(Vehicle& vehicle, const VehicleState& state
 
 void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
   VehicleMemory& memory = vehicle.memory;
-  if (!memory.contacts.empty()) endContacts(vehicle);
   if (vehicle.bodies.areAsleep()) {
     memory.expectation = {};
     return;
@@ -286,7 +295,9 @@ void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
     memory.expectation = {};
     return;
   }
-  if (!memory.pulse.isEmpty()) {
+  const bool delivering = !memory.pulse.isEmpty();
+  if (delivering) {
+    vehicle.memoryBefore = memory;
     memory.pulse.turnFrame(turnSince(memory.delivery.axes, known.axes));
   }
   const bool upright = vehicle.isUpright();
@@ -301,13 +312,14 @@ void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
   } else {
     vehicle.issues |= step_issue::tilted;
   }
+  if (!memory.contacts.empty()) endContacts(vehicle);
   const bool near = upright && (!exact || !segments.empty());
-  if (!near && memory.pulse.isEmpty()) {
+  if (!near && !delivering) {
     memory.expectation = {};
     memory.passages.clear();
     return;
   }
-  vehicle.memoryBefore = memory;
+  if (!delivering) vehicle.memoryBefore = memory;
   if (exact) {
     leaveOutPassages(vehicle);
     if (!segments.empty()) answerCuts(vehicle, state, motion, h);

@@ -6,8 +6,10 @@
 
 namespace bumper {
 
-/// A contact has ended when there was no impulse for this time, s.
+/// A contact has ended when there was no impulse for this time, s, and the outline is further than
+/// that from the barrier, m.
 inline constexpr double contactPause = 0.5;
+inline constexpr double contactDistance = 0.02;
 
 /// While a contact lasts, an impulse is an impact of its own above this many rest speeds.
 inline constexpr double impactInContact = 5.0;

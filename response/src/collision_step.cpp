@@ -36,6 +36,9 @@ constexpr std::size_t plasticInStepAfter = 24;
 constexpr double easeOutShare = 0.2;
 constexpr double easeOutDepth = 1e-4;
 
+// What is found deeper than this within a step, m, was not touched anew: it slides.
+constexpr double slidingDepth = 10.0 * touchTolerance;
+
 // Part of a step after which a touch without effect, or one that slides, is looked at again.
 constexpr double lookAgain = 0.01;
 constexpr double slidingPause = 0.125;
@@ -172,9 +175,7 @@ CollisionStep::Approach CollisionStep::approach(const ContactPoint& contact,
 // Of the point of first touch and what else touches: the first if it approaches, else the fastest.
 CollisionStep::Approach CollisionStep::touching(const Wall& wall) const {
   const Overlap& overlap = wall.overlap;
-  Approach best =
-      approach(contactPoint(outline_, motion_.position, motion_.yaw, wall.segment, overlap, 0.0),
-               overlap.normal);
+  Approach best = approach(firstPoint(motion_.position, overlap), overlap.normal);
   if (best.speed > restTolerance) return best;
   const ContactPoints points =
       touchingPoints(outline_, motion_.position, motion_.yaw, wall.segment, overlap);
@@ -208,13 +209,16 @@ CollisionStep::Approach CollisionStep::middleOfChain(const Wall& struck, double 
   Vector2 middle = Vector2::Zero();
   Vector2 normal = Vector2::Zero();
   double total = 0.0;
+  const auto facing = [&](const Wall& wall) {
+    return &wall == &struck ? first.normal : lineOf(wall.segment, motion_.position).normal;
+  };
   const auto include = [&](const Wall& wall) {
     const Interference inside = interference(outline_, moved, motion_.yaw, wall.segment);
-    const double bend = std::abs(cross(first.normal, wall.overlap.normal));
+    const double bend = std::abs(cross(first.normal, facing(wall)));
     const double weight = inside.length() * std::max(0.0, 1.0 - bend / chainSine);
     if (inside.empty || weight == 0.0) return;
     middle += weight * inside.middle();
-    normal += weight * wall.overlap.normal;
+    normal += weight * facing(wall);
     total += weight;
   };
   include(struck);
@@ -225,8 +229,8 @@ CollisionStep::Approach CollisionStep::middleOfChain(const Wall& struck, double 
       const auto next = std::find_if(walls_.begin(), walls_.end(), [&](const Wall& wall) {
         return &wall != last && wall.segment.settings == struck.segment.settings &&
                (joint - (forward ? wall.segment.start : wall.segment.end)).norm() <= jointWidth &&
-               first.normal.dot(wall.overlap.normal) > 0.0 &&
-               std::abs(cross(first.normal, wall.overlap.normal)) < chainSine;
+               first.normal.dot(facing(wall)) > 0.0 &&
+               std::abs(cross(first.normal, facing(wall))) < chainSine;
       });
       if (next == walls_.end()) break;
       include(*next);
@@ -312,16 +316,16 @@ void CollisionStep::record(const Wall& wall, const Approach& at, double time,
                       .normal = at.normal,
                       .arm = at.contact.arm,
                       .depth = std::max(wall.overlap.depth, 0.0)};
-  impacts_.push_back({time, impact, response});
+  impacts_.push_back({.time = time, .impact = impact, .response = response});
   motion_ = response.after;
 }
 
-void CollisionStep::answer(const Next& next, double time, double restitutionScale) {
+void CollisionStep::answer(const Next& next, double time, Rebound rebound) {
   Wall& wall = *next.wall;
   const ResponseSettings& settings = *wall.segment.settings;
   const ImpactResponse response =
       respond({.normal = next.at.normal, .arm = next.at.contact.arm}, motion_, vehicle_.mass,
-              vehicle_.yawInertia, settings, restitutionScale);
+              vehicle_.yawInertia, settings, rebound);
   record(wall, next.at, time, response);
   wall.struck = true;
   for (Wall& other : walls_) {
@@ -346,7 +350,7 @@ void CollisionStep::answerTogether(double time) {
       points[count] = {.normal = wall.overlap.normal, .arm = contact.arm};
       owners[count++] = {.wall = &wall, .at = approach(contact, wall.overlap.normal)};
     };
-    add(contactPoint(outline_, motion_.position, motion_.yaw, wall.segment, wall.overlap, 0.0));
+    add(firstPoint(motion_.position, wall.overlap));
     const ContactPoints touching =
         touchingPoints(outline_, motion_.position, motion_.yaw, wall.segment, wall.overlap);
     for (std::size_t k = 0; k < touching.count; ++k) add(touching.points[k]);
@@ -376,8 +380,14 @@ CollisionStep::Settled CollisionStep::settle(double time) {
       answerTogether(time);
       return last ? Settled::for_now : Settled::by_impulses;
     }
-    const bool plastic = count >= plasticAfter || impacts_.size() >= plasticInStepAfter;
-    answer(next, time, plastic ? 0.0 : 1.0);
+    const Overlap& overlap = next.wall->overlap;
+    const bool slides = time > 0.0 && overlap.byEnd && overlap.depth > slidingDepth;
+    const bool manyAlready = count >= plasticAfter || impacts_.size() >= plasticInStepAfter;
+    const Rebound rebound = manyAlready ? Rebound::none
+                            : slides    ? Rebound::elastic
+                                        : Rebound::as_set;
+    answer(next, time, rebound);
+    impacts_.back().slides = slides;
   }
 }
 
@@ -392,7 +402,8 @@ Vector2 CollisionStep::easeOut(double h) const {
     const double missing = wanted - velocity.dot(wall.overlap.normal);
     if (missing > 0.0) velocity += missing * wall.overlap.normal;
   }
-  return velocity;
+  const double speed = velocity.norm();
+  return speed > maxEaseOut ? Vector2(maxEaseOut / speed * velocity) : velocity;
 }
 
 // The next touch after `from`, and its wall; null if there is none before `until`.

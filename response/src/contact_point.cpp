@@ -14,15 +14,10 @@ struct Interval {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
 
-  [[nodiscard]] bool empty() const { return low > high; }
   [[nodiscard]] double middle() const { return 0.5 * (low + high); }
   void include(double value) {
     low = std::min(low, value);
     high = std::max(high, value);
-  }
-  void limit(double from, double to) {
-    low = std::max(low, from);
-    high = std::min(high, to);
   }
 };
 
@@ -47,21 +42,6 @@ WallCorners inWallAxes(const Outline& outline, const Vector2& position, double y
     result[k] = {.along = tangent.dot(corner), .depth = line.offset - line.normal.dot(corner)};
   }
   return result;
-}
-
-// Where the outline's edges cross the line at a depth, from the first to the last crossing.
-Interval atDepth(const WallCorners& corners, double depth) {
-  Interval inside;
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const WallCorner& a = corners[k];
-    const WallCorner& b = corners[(k + 1) % corners.size()];
-    if (a.depth == depth) inside.include(a.along);
-    if ((a.depth < depth) != (b.depth < depth) && a.depth != b.depth) {
-      const double share = (depth - a.depth) / (b.depth - a.depth);
-      inside.include(a.along + share * (b.along - a.along));
-    }
-  }
-  return inside;
 }
 
 // How deep the outline's boundary lies at a place along the wall; −∞ beside the outline.
@@ -91,16 +71,19 @@ double deepestOver(const WallCorners& corners, const Overlap& wall) {
 // Depth, deepest place and line of interference with a face that the outline is known to reach.
 void measure(Overlap& face, const WallCorners& corners, const Interference& inside) {
   face.depth = deepestOver(corners, face);
-  Interval touch = atDepth(corners, face.depth - touchTolerance);
-  touch.limit(face.start, face.end);
-  const Vector2 tangent = turnedLeft(face.normal);
-  if (touch.empty()) {
-    // The outline reaches the wall at one of its ends.
-    touch.low = touch.high =
-        depthAt(corners, face.start) > depthAt(corners, face.end) ? face.start : face.end;
+  Interval touch;
+  const auto include = [&](double along, double depth) {
+    if (depth >= face.depth - touchTolerance) touch.include(along);
+  };
+  for (const WallCorner& corner : corners) {
+    if (corner.along < face.start - touchTolerance) continue;
+    if (corner.along > face.end + touchTolerance) continue;
+    include(std::clamp(corner.along, face.start, face.end), corner.depth);
   }
+  for (const double end : {face.start, face.end}) include(end, depthAt(corners, end));
   face.deepest = touch.middle();
   const Vector2 foot = face.offset * face.normal;
+  const Vector2 tangent = turnedLeft(face.normal);
   face.insideFrom = inside.empty ? Vector2(foot + touch.low * tangent) : inside.from;
   face.insideTo = inside.empty ? Vector2(foot + touch.high * tangent) : inside.to;
 }
@@ -265,6 +248,12 @@ std::optional<Overlap> findTouch(const Outline& outline, const Vector2& position
   measure(face, corners, inside);
   if (!(face.depth >= -touchTolerance)) return std::nullopt;
   return face;
+}
+
+ContactPoint firstPoint(const Vector2& position, const Overlap& overlap) {
+  const Vector2 point =
+      overlap.deepest * turnedLeft(overlap.normal) + overlap.offset * overlap.normal;
+  return {.point = point, .arm = point - overlap.depth * overlap.normal - position};
 }
 
 double moveTo(const Overlap& overlap, const Vector2& position, double penetration) {

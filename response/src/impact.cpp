@@ -58,24 +58,23 @@ void apply(ImpactResponse& response, const PlanarImpulse& impulse, double mass, 
 }  // namespace
 
 ImpactResponse respond(const Impact& impact, const PlanarMotion& motion, double mass,
-                       double yawInertia, const ResponseSettings& settings,
-                       double restitutionScale) {
+                       double yawInertia, const ResponseSettings& settings, Rebound rebound) {
   const ContactBody vehicle = bodyAt(impact, motion, mass, yawInertia);
   const ContactMobility mobility = contactMobility(vehicle, fixedBarrier, impact.normal);
   const ContactVelocity velocity = contactVelocity(vehicle, fixedBarrier, impact.normal);
   const double energyBefore = yawPlaneEnergy(motion, mass, yawInertia);
 
   ImpactResponse response = before(impact, motion, velocity);
-  response.law = settings.law;
+  response.law = rebound == Rebound::elastic ? Law::restitution : settings.law;
   const double angle = response.angles.by(settings.angle);
   response.friction = settings.friction(angle);
 
-  double fade = restitutionScale;
+  double fade = rebound == Rebound::none ? 0.0 : 1.0;
   if (settings.method == Method::bumper && settings.restSpeed > 0.0) {
     fade *= std::clamp(response.approachSpeed / settings.restSpeed, 0.0, 1.0);
   }
 
-  if (settings.law == Law::energy) {
+  if (settings.law == Law::energy && rebound != Rebound::elastic) {
     response.energyAsked = settings.energyRemaining(angle);
     const EnergySolution solution =
         answerByEnergy(mobility, velocity,
@@ -93,7 +92,7 @@ ImpactResponse respond(const Impact& impact, const PlanarMotion& motion, double 
                             solution.contact.velocityAfter.normal < 0.0;
   } else {
     response.energyAsked = std::numeric_limits<double>::quiet_NaN();
-    response.restitution = fade * settings.restitution(angle);
+    response.restitution = rebound == Rebound::elastic ? 1.0 : fade * settings.restitution(angle);
     response.contact = answerByRestitution(
         mobility, velocity, response.restitution,
         {.kind = settings.frictionKind, .value = response.friction}, settings.method);

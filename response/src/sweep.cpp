@@ -11,8 +11,10 @@ namespace {
 // other along this direction.
 constexpr double touchingDepth = 0.01;
 
-// Points that part more slowly than this, m/s, slide over each other.
+// Points that part more slowly than this, m/s, slide over each other; they are looked at again
+// before they can be deeper than that in each other, m.
 constexpr double slidingSpeed = 1e-3;
+constexpr double slidingDepth = 0.002;
 
 // Bounds the work where two points part and meet again and again.
 constexpr int maxSteps = 200;
@@ -59,23 +61,28 @@ struct Flight {
 };
 
 // The first time at which a gap is closed and closing. `speed` bounds its rate, `bend` the rate's
-// own rate, so that no touch between two looks can be missed.
+// own rate, so that no touch between two looks can be missed. `inside`: the points may be in each
+// other a little from the start.
 template <typename GapOf>
-double firstClosed(const Flight& flight, const GapOf& gapOf, double speed, double bend,
+double firstClosed(const Flight& flight, const GapOf& gapOf, double speed, double bend, bool inside,
                    double until) {
   constexpr double closed = 0.5 * touchTolerance;
   const double from = flight.from;
   Gap gap = gapOf(flight.first);
   if (gap.distance > speed * (until - from)) return never;
   double time = from;
+  bool touching = inside && gap.distance > -touchingDepth;
   for (int step = 0; step < maxSteps; ++step) {
+    // A touch begins where the gap closes, and lasts until it opens or the points pass each other.
+    touching =
+        gap.counts && gap.distance <= closed && (touching || gap.distance >= -touchTolerance);
     double wait = 0.0;
     if (gap.distance > closed) {
       // As long as it takes at least to close it.
       const double root = std::sqrt(gap.rate * gap.rate + 2.0 * bend * gap.distance);
       wait = gap.rate < 0.0 ? 2.0 * gap.distance / (root - gap.rate)
                             : (bend > 0.0 ? (root + gap.rate) / bend : never);
-    } else if (gap.distance <= -touchingDepth || !gap.counts) {
+    } else if (!touching) {
       // As long as it takes at least to open it, and no less than brings the search to its end.
       wait = std::max((closed - gap.distance) / speed, (until - from) / maxSteps);
     } else if (gap.rate < -restTolerance) {
@@ -85,7 +92,9 @@ double firstClosed(const Flight& flight, const GapOf& gapOf, double speed, doubl
     } else {
       // They part, or slide over each other, and may approach again.
       wait = bend > 0.0 ? 2.0 * gap.rate / bend : never;
-      if (gap.rate < slidingSpeed) wait = std::max(wait, flight.pause);
+      if (gap.rate < slidingSpeed || gap.distance < -touchTolerance) {
+        wait = std::max(wait, std::min(flight.pause, std::sqrt(2.0 * slidingDepth / bend)));
+      }
     }
     const double next = time + wait;
     if (!(next <= until)) return never;
@@ -100,7 +109,7 @@ double firstClosed(const Flight& flight, const GapOf& gapOf, double speed, doubl
 // A corner of the outline and a face of the wall. `front` is 1 if the corner comes from the
 // normal's side, −1 from the other.
 double cornerOnFace(const Flight& flight, const Vector2& corner, const WallSegment& wall,
-                    double front, double until) {
+                    double front, bool inside, double until) {
   const Vector2 normal = front * wall.normal;
   const Vector2 tangent = turnedLeft(normal);
   const double start = tangent.dot(wall.start);
@@ -119,12 +128,12 @@ double cornerOnFace(const Flight& flight, const Vector2& corner, const WallSegme
   const double radius = corner.norm();
   const double yawRate = std::abs(flight.motion.yawRate);
   return firstClosed(flight, gapOf, flight.motion.velocity.norm() + yawRate * radius,
-                     yawRate * yawRate * radius, until);
+                     yawRate * yawRate * radius, inside, until);
 }
 
 // A point of the barrier, or the middle of a post, and a side of the outline.
 double pointOnSide(const Flight& flight, const Vector2& point, double radius, const Vector2& out,
-                   double reach, double low, double high, double until) {
+                   double reach, double low, double high, bool inside, double until) {
   const Vector2 along = turnedLeft(out);
   const auto gapOf = [&](const Flight::Pose& pose) {
     const Vector2 local = pose.turnedBack(point - pose.centre);
@@ -139,12 +148,12 @@ double pointOnSide(const Flight& flight, const Vector2& point, double radius, co
   const double farthest = (point - flight.motion.position).norm() +
                           speed * std::max(std::abs(flight.from), std::abs(until));
   return firstClosed(flight, gapOf, speed + yawRate * farthest,
-                     2.0 * yawRate * speed + yawRate * yawRate * farthest, until);
+                     2.0 * yawRate * speed + yawRate * yawRate * farthest, inside, until);
 }
 
 // A corner of the outline and the round of a post.
 double cornerOnPost(const Flight& flight, const Vector2& corner, const WallSegment& post,
-                    double until) {
+                    bool inside, double until) {
   const auto gapOf = [&](const Flight::Pose& pose) {
     const Vector2 arm = pose.turned(corner);
     const Vector2 away = pose.centre + arm - post.start;
@@ -158,7 +167,7 @@ double cornerOnPost(const Flight& flight, const Vector2& corner, const WallSegme
   const double yawRate = std::abs(flight.motion.yawRate);
   const double speed = flight.motion.velocity.norm() + yawRate * radius;
   return firstClosed(flight, gapOf, speed, yawRate * yawRate * radius + speed * speed / post.radius,
-                     until);
+                     inside, until);
 }
 
 }  // namespace
@@ -180,14 +189,16 @@ double timeOfTouch(const Outline& outline, const PlanarMotion& motion, const Wal
     found = true;
   };
 
+  const bool inFace = touch != nullptr && !touch->byEnd;
+  const bool inSide = touch != nullptr && touch->byEnd;
   for (const Vector2& corner : outline.corners()) {
     if (wall.isPost()) {
-      consider(cornerOnPost(flight, corner, wall, first));
+      consider(cornerOnPost(flight, corner, wall, inSide, first));
       continue;
     }
     // A corner comes from the side that it is on, unless it has gone in a little.
     double front = 1.0;
-    if (touch != nullptr && !touch->byEnd) {
+    if (inFace) {
       front = touch->normal.dot(wall.normal) < 0.0 ? -1.0 : 1.0;
     } else if (!wall.solid) {
       const Vector2 place = flight.first.centre + flight.first.turned(corner);
@@ -197,7 +208,7 @@ double timeOfTouch(const Outline& outline, const PlanarMotion& motion, const Wal
       }
       front = height < 0.0 ? -1.0 : 1.0;
     }
-    consider(cornerOnFace(flight, corner, wall, front, first));
+    consider(cornerOnFace(flight, corner, wall, front, inFace, first));
   }
 
   struct Side {
@@ -212,10 +223,10 @@ double timeOfTouch(const Outline& outline, const PlanarMotion& motion, const Wal
   };
   for (const Side& side : sides) {
     consider(pointOnSide(flight, wall.start, wall.radius, side.out, side.reach,
-                         side.low - touchTolerance, side.high + touchTolerance, first));
+                         side.low - touchTolerance, side.high + touchTolerance, inSide, first));
     if (wall.isPost()) continue;
     consider(pointOnSide(flight, wall.end, 0.0, side.out, side.reach, side.low - touchTolerance,
-                         side.high + touchTolerance, first));
+                         side.high + touchTolerance, inSide, first));
   }
   return found ? first : never;
 }

@@ -83,9 +83,8 @@ TEST_F(RealTrack, AFourWheelCarHitsItsWalls) {
         // The law's own numbers for what the event says of the contact.
         const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> axes(
             dBodyGetRotation(car.chassis));
-        const Vector2 normal =
-            rotated((axes.leftCols<3>().transpose() * event.normal).head<2>(),
-                    -event.yawRateBefore * (event.time - start));
+        const Vector2 normal = rotated((axes.leftCols<3>().transpose() * event.normal).head<2>(),
+                                       -event.yawRateBefore * (event.time - start));
         const ContactBody body{.inverseMass = 1.0 / now.mass,
                                .inverseYawInertia = 1.0 / now.yawInertia,
                                .arm = event.arm};

@@ -41,6 +41,8 @@ struct LastDelivery {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   Eigen::Vector3d turning = Eigen::Vector3d::Zero();  ///< rad/s
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d forceBefore = Eigen::Vector3d::Zero();  ///< on the chassis, N: the application's
+  Eigen::Vector3d forceAfter = Eigen::Vector3d::Zero();   ///< … with what was delivered
 };
 
 /// The motion that the last step's known forces should have led to.

@@ -12,8 +12,11 @@ namespace bumper {
 /// An impact of this step and the response to it.
 struct StepImpact {
   double time = 0.0;  ///< of the impact, s from the step's start
-  Impact impact;
-  ImpactResponse response;
+  Impact impact{};
+  ImpactResponse response{};
+  /// A part of a contact that lasts within the step: an end of a wall that a turning side slides
+  /// along.
+  bool slides = false;
 };
 
 /// A velocity and yaw rate for one step only. It eases an outline out of walls that it stands in,
@@ -103,7 +106,7 @@ class CollisionStep {
   void findHidden();
   [[nodiscard]] Vector2 easeOut(double h) const;
   Settled settle(double time);
-  void answer(const Next& next, double time, double restitutionScale);
+  void answer(const Next& next, double time, Rebound rebound);
   void answerTogether(double time);
   void record(const Wall& wall, const Approach& at, double time, const ImpactResponse& response);
   NextTouch nextTouch(double from, double until);

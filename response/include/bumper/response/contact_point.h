@@ -89,6 +89,9 @@ struct ContactPoint {
       Vector2::Zero();  ///< mass centre to the body's contact point, m, in the plane's frame
 };
 
+/// The outline's deepest point over the wall, or the middle of a flush side: what touched first.
+ContactPoint firstPoint(const Vector2& position, const Overlap& overlap);
+
 /// The midpoint of the line of interference (Figure 2) at a given depth of penetration: the outline
 /// is moved along the normal until its deepest point is `penetration` inside the wall, and the
 /// contact point is the middle of the part of the wall inside it. With the overlap's own depth this

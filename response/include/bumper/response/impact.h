@@ -33,12 +33,19 @@ struct ImpactResponse {
   PlanarMotion after;
 };
 
+/// What becomes of the rebound that the settings ask for.
+enum class Rebound {
+  as_set,
+  none,     ///< the contact point stays: many impacts at one instant come to an end
+  elastic,  ///< it leaves as fast as it came, the restitution law answers: a contact that lasts is
+            ///< held by many small impacts, none of which may take energy
+};
+
 /// The response to an impact of a vehicle of the given mass and yaw inertia that moves as `motion`
 /// says against a fixed wall: reads the curves at the angle of attack and asks the law.
-/// `restitutionScale` in [0, 1] lowers what rebound the settings ask for.
 ImpactResponse respond(const Impact& impact, const PlanarMotion& motion, double mass,
                        double yawInertia, const ResponseSettings& settings,
-                       double restitutionScale = 1.0);
+                       Rebound rebound = Rebound::as_set);
 
 /// The same for an impulse that no law asked for: it ends the approach at several points at once.
 ImpactResponse plainResponse(const Impact& impact, const PlanarMotion& motion, double mass,
