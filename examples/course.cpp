@@ -65,7 +65,7 @@ Recording driveLap(dWorldID world, const Scene& scene) {
   while (driver.laps() == 0 && responder.time() < longestLap) {
     driver.control(car);
     car.addTyreForces();
-    for (const ImpactEvent& event : responder.step(step)) recording.addImpact(event);
+    record(responder.step(step), recording);
     dWorldQuickStep(world, step);
     recording.addPose(recorded, poseOf(car, responder.time()));
   }

@@ -173,7 +173,7 @@ Recording run(const Order& order, const Scene& scene) {
     car.drive(order.coast ? 0.0 : 3000.0 * (order.speed - car.forwardSpeed()));
     suspension.addForces();
     car.addTyreForces();
-    for (const ImpactEvent& event : responder.step(order.step)) recording.addImpact(event);
+    record(responder.step(order.step), recording);
     dWorldQuickStep(world.world, order.step);
     dJointGroupEmpty(world.joints);
     recording.addPose(recorded, poseOf(car, responder.time()));

@@ -38,6 +38,12 @@ RecordedPose poseOf(const YawPlaneCar& car, double time) {
           .yawRate = car.yawRate()};
 }
 
+void record(std::span<const ImpactEvent> events, Recording& recording) {
+  for (const ImpactEvent& event : events) {
+    if (event.phase == EventPhase::impact) recording.addImpact(event);
+  }
+}
+
 void writeResults(const std::filesystem::path& folder, const Scene& scene,
                   const Recording& recording, const std::string& title) {
   writeCsv(recording, folder);

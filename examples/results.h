@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "bumper/render/recording.h"
@@ -11,6 +12,9 @@ namespace bumper::examples {
 
 /// The car's state for a recording.
 RecordedPose poseOf(const YawPlaneCar& car, double time);
+
+/// Keeps the impacts of a step; contacts that only lean or scrape are left out.
+void record(std::span<const ImpactEvent> events, Recording& recording);
 
 /// Writes events.csv, trajectory.csv, snapshot.png and top_view.png into a folder, and says so.
 void writeResults(const std::filesystem::path& folder, const Scene& scene,

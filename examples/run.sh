@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds, and runs the main job: the paper's test rail and course, then a
-# drive on a real race track. Pictures and tables go to out/.
+# Installs what is missing, builds, and runs the main job: the paper's test rail and course, a
+# fence that breaks, then a drive on a real race track. Pictures and tables go to out/.
 #   --no-download   leaves out the real track unless it is there already
 #   --dry-run       shows the packages and stops
 set -euo pipefail
@@ -18,7 +18,7 @@ done
 
 mkdir -p "$root/build"
 install_packages build
-configure_and_build --target test_rail course drive bumper-read-scene
+configure_and_build --target test_rail course break_through drive bumper-read-scene
 cd "$root"
 
 say "The paper's test rail"
@@ -26,6 +26,9 @@ say "The paper's test rail"
 
 say "A lap of the course"
 "$build/bin/course" out/course
+
+say "Through a fence"
+"$build/bin/break_through" out/break_through
 
 say "A drive on a real track"
 if [ "$download" = 1 ]; then "$root/examples/fetch_tracks.sh" road/aalborg || true; fi

@@ -25,7 +25,7 @@ void drive(dWorldID world, const Scene& scene, const ResponseSettings& settings,
   recording.addPose(recorded, poseOf(car, 0.0));
   for (int i = 0; i < steps; ++i) {
     car.addTyreForces();
-    for (const ImpactEvent& event : responder.step(step)) recording.addImpact(event);
+    record(responder.step(step), recording);
     dWorldQuickStep(world, step);
     recording.addPose(recorded, poseOf(car, responder.time()));
   }

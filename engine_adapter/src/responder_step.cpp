@@ -32,28 +32,34 @@ VehicleParameters withMassOf(VehicleParameters parameters, const VehicleState& s
 }
 
 // What acts on a vehicle besides the forces that are known before a step, joints above all, is the
-// difference between the last step's outcome and what it should have been. It rarely changes from
-// step to step: the coming step's is foreseen to be the same.
-void foresee(const Expectation& expected, VehicleState& state) {
+// difference between the last step's outcome and what it should have been. It rarely changes much
+// from step to step: the coming step's is foreseen to be its running mean, which keeps the solver's
+// noise out of the answer.
+void foresee(Expectation& expected, VehicleState& state) {
   // More than tyres can do was a blow or a teleport, and is over.
   constexpr double mostAcceleration = 15.0;     // m/s²
   constexpr double mostYawAcceleration = 15.0;  // rad/s²
+  constexpr double weight = 0.25;               // of the last step in the mean
   if (expected.step <= 0.0) return;
   const Eigen::Vector3d acceleration = (state.velocity - expected.velocity) / expected.step;
   const double yawAcceleration = (state.yawRate - expected.yawRate) / expected.step;
-  if (acceleration.norm() > mostAcceleration || std::abs(yawAcceleration) > mostYawAcceleration) {
-    return;
+  if (acceleration.norm() <= mostAcceleration && std::abs(yawAcceleration) <= mostYawAcceleration) {
+    const double share = expected.known ? weight : 1.0;
+    expected.acceleration += share * (acceleration - expected.acceleration);
+    expected.yawAcceleration += share * (yawAcceleration - expected.yawAcceleration);
+    expected.known = true;
   }
-  state.acceleration += acceleration;
-  state.yawAcceleration += yawAcceleration;
+  state.acceleration += expected.acceleration;
+  state.yawAcceleration += expected.yawAcceleration;
 }
 
 // What the coming step should do by the known forces and the impulse that is given.
-Expectation expect(const VehicleState& known, const PlanarImpulse& impulse, double h) {
-  return {.velocity =
-              known.velocity + h * known.acceleration + known.toWorld(impulse.linear) / known.mass,
-          .yawRate = known.yawRate + h * known.yawAcceleration + impulse.angular / known.yawInertia,
-          .step = h};
+void expect(const VehicleState& known, const PlanarImpulse& impulse, double h,
+            Expectation& expected) {
+  expected.step = h;
+  expected.velocity =
+      known.velocity + h * known.acceleration + known.toWorld(impulse.linear) / known.mass;
+  expected.yawRate = known.yawRate + h * known.yawAcceleration + impulse.angular / known.yawInertia;
 }
 
 // By how much the vehicle's axes have turned in its yaw plane, rad.
@@ -327,8 +333,11 @@ void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
     answerContacts(vehicle, state, motion, h);
   }
   give(vehicle, known, h);
-  memory.expectation =
-      near && memory.delivery.any ? expect(known, memory.delivery.impulse, h) : Expectation{};
+  if (near && memory.delivery.any) {
+    expect(known, memory.delivery.impulse, h, memory.expectation);
+  } else {
+    memory.expectation = {};
+  }
 }
 
 std::span<const ImpactEvent> Responder::step(double h) {

@@ -45,11 +45,14 @@ struct LastDelivery {
   Eigen::Vector3d forceAfter = Eigen::Vector3d::Zero();   ///< … with what was delivered
 };
 
-/// The motion that the last step's known forces should have led to.
+/// What the last step's known forces should have led to, and what the unknown ones were lately.
 struct Expectation {
+  double step = 0.0;  ///< s; 0: nothing is expected
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   double yawRate = 0.0;
-  double step = 0.0;  ///< s; 0: nothing is expected
+  bool known = false;                                      ///< whether the accelerations are
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< m/s², a running mean
+  double yawAcceleration = 0.0;                            ///< rad/s², a running mean
 };
 
 /// All that is remembered of a vehicle.
