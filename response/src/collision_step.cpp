@@ -39,9 +39,13 @@ constexpr double easeOutDepth = 1e-4;
 // What is found deeper than this within a step, m, was not touched anew: it slides.
 constexpr double slidingDepth = 10.0 * touchTolerance;
 
-// Part of a step after which a touch without effect, or one that slides, is looked at again.
+// Part of a step after which a touch without effect is looked at again.
 constexpr double lookAgain = 0.01;
-constexpr double slidingPause = 0.125;
+
+// What touches and does not approach may do so again, as the outline turns: it is looked at before
+// it can be deeper than that in each other, m, but no more often than so many times in a step.
+constexpr double unseenDepth = 1e-6;
+constexpr double looksInStep = 8.0;
 
 WallSegment oriented(const WallSegment& wall, const Vector2& centre) {
   WallSegment result = wall;
@@ -148,18 +152,19 @@ bool CollisionStep::isShielded(const Overlap& end) const {
   });
 }
 
-std::optional<Overlap> CollisionStep::overlapWith(const WallSegment& wall) const {
+std::optional<Overlap> CollisionStep::overlapWith(const WallSegment& wall, double time) const {
   const auto byFace = [&] { return findOverlap(outline_, motion_.position, motion_.yaw, wall); };
   if (wall.settings->method == Method::paper) return byFace();
   const std::optional<Overlap> touch = findTouch(outline_, motion_.position, motion_.yaw, wall);
   if (!touch || wall.isPost()) return touch;
-  if (touch->depth > standsInDepth || (touch->byEnd && isShielded(*touch))) return byFace();
+  const bool wasPutThere = time == 0.0 && touch->depth > standsInDepth;
+  if (wasPutThere || (touch->byEnd && isShielded(*touch))) return byFace();
   return touch;
 }
 
-void CollisionStep::findTouched() {
+void CollisionStep::findTouched(double time) {
   for (Wall& wall : walls_) {
-    const std::optional<Overlap> overlap = overlapWith(wall.segment);
+    const std::optional<Overlap> overlap = overlapWith(wall.segment, time);
     wall.touched = overlap.has_value();
     wall.hidden = false;
     wall.struck = false;
@@ -369,7 +374,7 @@ void CollisionStep::answerTogether(double time) {
 
 // Applies impulses until nothing that touches approaches.
 CollisionStep::Settled CollisionStep::settle(double time) {
-  findTouched();
+  findTouched(time);
   findHidden();
   for (int count = 0;; ++count) {
     Next next = firstNewWall();
@@ -406,9 +411,21 @@ Vector2 CollisionStep::easeOut(double h) const {
   return speed > maxEaseOut ? Vector2(maxEaseOut / speed * velocity) : velocity;
 }
 
+// How long what touches now can be left alone, s.
+double CollisionStep::pause(double h) const {
+  const bool anyTouch = std::any_of(walls_.begin(), walls_.end(),
+                                    [](const Wall& wall) { return wall.touched && !wall.passed; });
+  if (!anyTouch) return never;
+  // How fast the approach of two points that touch can change.
+  const double radius = std::hypot(std::max(outline_.front, outline_.rear), outline_.halfWidth);
+  const double yawRate = std::abs(motion_.yawRate);
+  const double bend = yawRate * (2.0 * motion_.velocity.norm() + yawRate * radius);
+  return std::max(std::sqrt(2.0 * unseenDepth / bend), h / looksInStep);
+}
+
 // The next touch after `from`, and its wall; null if there is none before `until`.
 CollisionStep::NextTouch CollisionStep::nextTouch(double from, double until) {
-  NextTouch next{.time = until};
+  NextTouch next{.time = until, .wall = nullptr};
   for (Wall& wall : walls_) {
     if (wall.passed || wall.segment.settings->method == Method::paper) continue;
     const double start = std::max(from, wall.unheardOf);
@@ -416,7 +433,7 @@ CollisionStep::NextTouch CollisionStep::nextTouch(double from, double until) {
     // motion_ is the motion at `from`.
     const double time =
         from + timeOfTouch(outline_, motion_, wall.segment, wall.touched ? &wall.overlap : nullptr,
-                           start - from, next.time - from, slidingPause * until);
+                           start - from, next.time - from);
     if (time <= next.time) next = {.time = time, .wall = &wall};
   }
   return next;
@@ -433,7 +450,7 @@ StepOutcome CollisionStep::resolve(const VehicleParameters& vehicle, const Plana
   mergeWalls(walls, motion_.position);
 
   if (h > 0.0) {
-    findTouched();
+    findTouched(0.0);
     findHidden();
     outcome.shift.velocity = easeOut(h);
     motion_.position += h * outcome.shift.velocity;
@@ -442,12 +459,15 @@ StepOutcome CollisionStep::resolve(const VehicleParameters& vehicle, const Plana
   double time = 0.0;
   Settled settled = settle(time);
   while (settled != Settled::for_now && h > 0.0) {
-    const NextTouch next = nextTouch(time, h);
-    if (next.wall == nullptr) break;
+    const double look = time + pause(h);
+    const NextTouch next = nextTouch(time, std::min(look, h));
+    if (next.wall == nullptr && look >= h) break;
     motion_ = advanced(motion_, next.time - time);
     time = next.time;
     settled = settle(time);
-    if (settled == Settled::without_impulse) next.wall->unheardOf = time + lookAgain * h;
+    if (settled == Settled::without_impulse && next.wall != nullptr) {
+      next.wall->unheardOf = time + lookAgain * h;
+    }
   }
   for (const StepImpact& impact : impacts_) outcome.impulse += impact.response.impulse;
   outcome.impacts = impacts_;

@@ -237,7 +237,9 @@ std::optional<Overlap> findTouch(const Outline& outline, const Vector2& position
     if (std::abs(atStart - atEnd) <= touchTolerance) {
       point = inside.empty ? Vector2(0.5 * (wall.start + wall.end)) : inside.middle();
     }
-    Overlap touch = touchAtPoint(rotated(-side.out, yaw), point, -outside.distance);
+    const Vector2 normal = rotated(-side.out, yaw);
+    if (wall.solid && normal.dot(wall.normal) < 0.0) return std::nullopt;
+    Overlap touch = touchAtPoint(normal, point, -outside.distance);
     if (!inside.empty) {
       touch.insideFrom = inside.from;
       touch.insideTo = inside.to;
@@ -258,8 +260,8 @@ ContactPoint firstPoint(const Vector2& position, const Overlap& overlap) {
 
 double moveTo(const Overlap& overlap, const Vector2& position, double penetration) {
   const double centreDepth = overlap.offset - overlap.normal.dot(position);
-  const double most = std::max(overlap.depth - centreDepth, touchTolerance);
-  return overlap.depth - std::clamp(penetration, touchTolerance, most);
+  const double most = std::max(overlap.depth - centreDepth, 0.0);
+  return overlap.depth - std::clamp(penetration, 0.0, most);
 }
 
 ContactPoint contactPoint(const Outline& outline, const Vector2& position, double yaw,

@@ -7,17 +7,8 @@ namespace bumper {
 
 namespace {
 
-// Points no deeper in each other than this, m, touch; deeper ones have nothing to do with each
-// other along this direction.
-constexpr double touchingDepth = 0.01;
-
-// Points that part more slowly than this, m/s, slide over each other; they are looked at again
-// before they can be deeper than that in each other, m.
-constexpr double slidingSpeed = 1e-3;
-constexpr double slidingDepth = 0.002;
-
 // Bounds the work where two points part and meet again and again.
-constexpr int maxSteps = 200;
+constexpr int maxLooks = 200;
 
 // A distance between two points along a direction, and how fast it changes, m/s.
 struct Gap {
@@ -51,50 +42,41 @@ struct Flight {
             .velocity = motion.velocity};
   }
 
-  Flight(const PlanarMotion& itsMotion, double itsFrom, double itsPause)
-      : motion(itsMotion), from(itsFrom), pause(itsPause), first(at(from)) {}
+  Flight(const PlanarMotion& itsMotion, double itsFrom)
+      : motion(itsMotion), from(itsFrom), first(at(from)) {}
 
   PlanarMotion motion;
   double from;
-  double pause;
   Pose first;  // at `from`
 };
 
-// The first time at which a gap is closed and closing. `speed` bounds its rate, `bend` the rate's
-// own rate, so that no touch between two looks can be missed. `inside`: the points may be in each
-// other a little from the start.
+// The first time at which a gap closes. `speed` bounds its rate, `bend` the rate's own rate, so
+// that nothing between two looks can be missed.
 template <typename GapOf>
-double firstClosed(const Flight& flight, const GapOf& gapOf, double speed, double bend, bool inside,
+double firstClosed(const Flight& flight, const GapOf& gapOf, double speed, double bend,
                    double until) {
   constexpr double closed = 0.5 * touchTolerance;
   const double from = flight.from;
+  const double shortest = (until - from) / maxLooks;
   Gap gap = gapOf(flight.first);
   if (gap.distance > speed * (until - from)) return never;
   double time = from;
-  bool touching = inside && gap.distance > -touchingDepth;
-  for (int step = 0; step < maxSteps; ++step) {
-    // A touch begins where the gap closes, and lasts until it opens or the points pass each other.
-    touching =
-        gap.counts && gap.distance <= closed && (touching || gap.distance >= -touchTolerance);
+  for (int look = 0; look < maxLooks; ++look) {
     double wait = 0.0;
     if (gap.distance > closed) {
       // As long as it takes at least to close it.
       const double root = std::sqrt(gap.rate * gap.rate + 2.0 * bend * gap.distance);
       wait = gap.rate < 0.0 ? 2.0 * gap.distance / (root - gap.rate)
                             : (bend > 0.0 ? (root + gap.rate) / bend : never);
-    } else if (!touching) {
-      // As long as it takes at least to open it, and no less than brings the search to its end.
-      wait = std::max((closed - gap.distance) / speed, (until - from) / maxSteps);
+    } else if (!gap.counts || gap.distance < -touchTolerance) {
+      // As long as it takes at least to open it.
+      wait = std::max((closed - gap.distance) / speed, shortest);
     } else if (gap.rate < -restTolerance) {
-      // A last look from outside came short by rounding's worth.
-      const double rest = gap.distance > -touchTolerance ? gap.distance / gap.rate : 0.0;
-      return std::clamp(time - rest, from, until);
+      // The last look came short by rounding's worth.
+      return std::clamp(time - gap.distance / gap.rate, from, until);
     } else {
-      // They part, or slide over each other, and may approach again.
-      wait = bend > 0.0 ? 2.0 * gap.rate / bend : never;
-      if (gap.rate < slidingSpeed || gap.distance < -touchTolerance) {
-        wait = std::max(wait, std::min(flight.pause, std::sqrt(2.0 * slidingDepth / bend)));
-      }
+      // They part, and may approach again.
+      wait = std::max(bend > 0.0 ? 2.0 * gap.rate / bend : never, shortest);
     }
     const double next = time + wait;
     if (!(next <= until)) return never;
@@ -109,7 +91,7 @@ double firstClosed(const Flight& flight, const GapOf& gapOf, double speed, doubl
 // A corner of the outline and a face of the wall. `front` is 1 if the corner comes from the
 // normal's side, −1 from the other.
 double cornerOnFace(const Flight& flight, const Vector2& corner, const WallSegment& wall,
-                    double front, bool inside, double until) {
+                    double front, double until) {
   const Vector2 normal = front * wall.normal;
   const Vector2 tangent = turnedLeft(normal);
   const double start = tangent.dot(wall.start);
@@ -128,32 +110,33 @@ double cornerOnFace(const Flight& flight, const Vector2& corner, const WallSegme
   const double radius = corner.norm();
   const double yawRate = std::abs(flight.motion.yawRate);
   return firstClosed(flight, gapOf, flight.motion.velocity.norm() + yawRate * radius,
-                     yawRate * yawRate * radius, inside, until);
+                     yawRate * yawRate * radius, until);
 }
 
 // A point of the barrier, or the middle of a post, and a side of the outline.
-double pointOnSide(const Flight& flight, const Vector2& point, double radius, const Vector2& out,
-                   double reach, double low, double high, bool inside, double until) {
+double pointOnSide(const Flight& flight, const Vector2& point, const WallSegment& wall,
+                   const Vector2& out, double reach, double low, double high, double until) {
   const Vector2 along = turnedLeft(out);
   const auto gapOf = [&](const Flight::Pose& pose) {
     const Vector2 local = pose.turnedBack(point - pose.centre);
     const Vector2 rate = -pose.turnedBack(pose.velocity) - pose.rate * turnedLeft(local);
     const double place = along.dot(local);
-    return Gap{.distance = out.dot(local) - reach - radius,
+    return Gap{.distance = out.dot(local) - reach - wall.radius,
                .rate = out.dot(rate),
-               .counts = low <= place && place <= high};
+               .counts = low <= place && place <= high &&
+                         !(wall.solid && pose.turned(out).dot(wall.normal) > 0.0)};
   };
   const double speed = flight.motion.velocity.norm();
   const double yawRate = std::abs(flight.motion.yawRate);
   const double farthest = (point - flight.motion.position).norm() +
                           speed * std::max(std::abs(flight.from), std::abs(until));
   return firstClosed(flight, gapOf, speed + yawRate * farthest,
-                     2.0 * yawRate * speed + yawRate * yawRate * farthest, inside, until);
+                     2.0 * yawRate * speed + yawRate * yawRate * farthest, until);
 }
 
 // A corner of the outline and the round of a post.
 double cornerOnPost(const Flight& flight, const Vector2& corner, const WallSegment& post,
-                    bool inside, double until) {
+                    double until) {
   const auto gapOf = [&](const Flight::Pose& pose) {
     const Vector2 arm = pose.turned(corner);
     const Vector2 away = pose.centre + arm - post.start;
@@ -167,7 +150,7 @@ double cornerOnPost(const Flight& flight, const Vector2& corner, const WallSegme
   const double yawRate = std::abs(flight.motion.yawRate);
   const double speed = flight.motion.velocity.norm() + yawRate * radius;
   return firstClosed(flight, gapOf, speed, yawRate * yawRate * radius + speed * speed / post.radius,
-                     inside, until);
+                     until);
 }
 
 }  // namespace
@@ -179,8 +162,8 @@ PlanarMotion advanced(PlanarMotion motion, double time) {
 }
 
 double timeOfTouch(const Outline& outline, const PlanarMotion& motion, const WallSegment& wall,
-                   const Overlap* touch, double from, double until, double pause) {
-  const Flight flight(motion, from, pause);
+                   const Overlap* touch, double from, double until) {
+  const Flight flight(motion, from);
   double first = until;
   bool found = false;
   const auto consider = [&](double time) {
@@ -190,10 +173,9 @@ double timeOfTouch(const Outline& outline, const PlanarMotion& motion, const Wal
   };
 
   const bool inFace = touch != nullptr && !touch->byEnd;
-  const bool inSide = touch != nullptr && touch->byEnd;
   for (const Vector2& corner : outline.corners()) {
     if (wall.isPost()) {
-      consider(cornerOnPost(flight, corner, wall, inSide, first));
+      consider(cornerOnPost(flight, corner, wall, first));
       continue;
     }
     // A corner comes from the side that it is on, unless it has gone in a little.
@@ -208,7 +190,7 @@ double timeOfTouch(const Outline& outline, const PlanarMotion& motion, const Wal
       }
       front = height < 0.0 ? -1.0 : 1.0;
     }
-    consider(cornerOnFace(flight, corner, wall, front, inFace, first));
+    consider(cornerOnFace(flight, corner, wall, front, first));
   }
 
   struct Side {
@@ -222,11 +204,11 @@ double timeOfTouch(const Outline& outline, const PlanarMotion& motion, const Wal
       {{0.0, -1.0}, outline.halfWidth, -outline.rear, outline.front},
   };
   for (const Side& side : sides) {
-    consider(pointOnSide(flight, wall.start, wall.radius, side.out, side.reach,
-                         side.low - touchTolerance, side.high + touchTolerance, inSide, first));
+    consider(pointOnSide(flight, wall.start, wall, side.out, side.reach, side.low - touchTolerance,
+                         side.high + touchTolerance, first));
     if (wall.isPost()) continue;
-    consider(pointOnSide(flight, wall.end, 0.0, side.out, side.reach, side.low - touchTolerance,
-                         side.high + touchTolerance, inSide, first));
+    consider(pointOnSide(flight, wall.end, wall, side.out, side.reach, side.low - touchTolerance,
+                         side.high + touchTolerance, first));
   }
   return found ? first : never;
 }

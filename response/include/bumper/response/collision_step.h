@@ -100,8 +100,8 @@ class CollisionStep {
   enum class Settled { without_impulse, by_impulses, for_now };
 
   void mergeWalls(std::span<const WallSegment> walls, const Vector2& centre);
-  void findTouched();
-  [[nodiscard]] std::optional<Overlap> overlapWith(const WallSegment& wall) const;
+  void findTouched(double time);
+  [[nodiscard]] std::optional<Overlap> overlapWith(const WallSegment& wall, double time) const;
   [[nodiscard]] bool isShielded(const Overlap& end) const;
   void findHidden();
   [[nodiscard]] Vector2 easeOut(double h) const;
@@ -110,6 +110,7 @@ class CollisionStep {
   void answerTogether(double time);
   void record(const Wall& wall, const Approach& at, double time, const ImpactResponse& response);
   NextTouch nextTouch(double from, double until);
+  [[nodiscard]] double pause(double h) const;
 
   Next firstNewWall();
   Next fastestStruckWall();

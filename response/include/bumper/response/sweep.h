@@ -18,9 +18,9 @@ inline constexpr double never = std::numeric_limits<double>::infinity();
 /// The first time in [from, until], s, at which a point of the outline and a point of the wall
 /// touch while they approach each other: a corner and a face, an end and a side, a post and either.
 /// `motion` is the vehicle's at time 0. `touch` is what findTouch() says at `from`, or null.
-/// `never` if there is none. Exact to rounding, whatever the speed and the step; only points that
-/// slide over each other already are not looked at again before a `pause` is over, s.
+/// `never` if there is none. Exact to rounding, whatever the speed and the step. Points that are in
+/// each other already count again once they have parted.
 double timeOfTouch(const Outline& outline, const PlanarMotion& motion, const WallSegment& wall,
-                   const Overlap* touch, double from, double until, double pause);
+                   const Overlap* touch, double from, double until);
 
 }  // namespace bumper
