@@ -155,7 +155,7 @@ bool CollisionStep::isShielded(const Overlap& end) const {
 std::optional<Overlap> CollisionStep::overlapWith(const WallSegment& wall, double time) const {
   const auto byFace = [&] { return findOverlap(outline_, motion_.position, motion_.yaw, wall); };
   if (wall.settings->method == Method::paper) return byFace();
-  const std::optional<Overlap> touch = findTouch(outline_, motion_.position, motion_.yaw, wall);
+  std::optional<Overlap> touch = findTouch(outline_, motion_.position, motion_.yaw, wall);
   if (!touch || wall.isPost()) return touch;
   const bool wasPutThere = time == 0.0 && touch->depth > standsInDepth;
   if (wasPutThere || (touch->byEnd && isShielded(*touch))) return byFace();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace bumper {
 
@@ -42,8 +43,8 @@ struct Flight {
             .velocity = motion.velocity};
   }
 
-  Flight(const PlanarMotion& itsMotion, double itsFrom)
-      : motion(itsMotion), from(itsFrom), first(at(from)) {}
+  Flight(PlanarMotion itsMotion, double itsFrom)
+      : motion(std::move(itsMotion)), from(itsFrom), first(at(from)) {}
 
   PlanarMotion motion;
   double from;
@@ -76,12 +77,16 @@ double firstClosed(const Flight& flight, const GapOf& gapOf, double speed, doubl
       return std::clamp(time - gap.distance / gap.rate, from, until);
     } else {
       // They part, and may approach again.
-      wait = std::max(bend > 0.0 ? 2.0 * gap.rate / bend : never, shortest);
+      if (bend == 0.0) return never;
+      wait = std::max(2.0 * gap.rate / bend, shortest);
     }
     const double next = time + wait;
     if (!(next <= until)) return never;
-    // Closer than the next number: this is the touch.
-    if (next == time) return gap.counts && gap.rate < -restTolerance ? time : never;
+    if (next == time) {
+      // Closer than the next number: this is the touch.
+      if (!gap.counts || gap.rate >= -restTolerance) return never;
+      return time;
+    }
     time = next;
     gap = gapOf(flight.at(time));
   }
@@ -210,7 +215,8 @@ double timeOfTouch(const Outline& outline, const PlanarMotion& motion, const Wal
     consider(pointOnSide(flight, wall.end, wall, side.out, side.reach, side.low - touchTolerance,
                          side.high + touchTolerance, first));
   }
-  return found ? first : never;
+  if (!found) return never;
+  return first;
 }
 
 }  // namespace bumper

@@ -12,8 +12,8 @@ inline constexpr double restTolerance = 1e-9;
 /// Where free flight at constant velocity and yaw rate has carried a vehicle after some time, s.
 PlanarMotion advanced(PlanarMotion motion, double time);
 
-/// What never happens.
-inline constexpr double never = std::numeric_limits<double>::infinity();
+/// The time of what does not happen, later than any other.
+inline constexpr double never = std::numeric_limits<double>::max();
 
 /// The first time in [from, until], s, at which a point of the outline and a point of the wall
 /// touch while they approach each other: a corner and a face, an end and a side, a post and either.
