@@ -45,7 +45,7 @@ constexpr double lookAgain = 0.01;
 // What touches and does not approach may do so again, as the outline turns: it is looked at before
 // it can be deeper than that in each other, m, but no more often than so many times in a step.
 constexpr double unseenDepth = 1e-6;
-constexpr double looksInStep = 8.0;
+constexpr double looksInStep = 12.0;
 
 WallSegment oriented(const WallSegment& wall, const Vector2& centre) {
   WallSegment result = wall;
@@ -100,7 +100,7 @@ int CollisionStep::wallAt(const Wall& wall, const Vector2& point) const {
     const double length2 = along.squaredNorm();
     const double share =
         length2 > 0.0 ? std::clamp((point - piece.start).dot(along) / length2, 0.0, 1.0) : 0.0;
-    const double distance = (point - piece.start - share * along).squaredNorm();
+    const double distance = std::abs((point - piece.start - share * along).norm() - piece.radius);
     if (distance < best || (distance == best && piece.id < nearest)) {
       best = distance;
       nearest = piece.id;
@@ -208,7 +208,7 @@ CollisionStep::Approach CollisionStep::middleOfChain(const Wall& struck, double 
         contactPoint(outline_, motion_.position, motion_.yaw, struck.segment, first, penetration),
         first.normal);
   };
-  if (struck.segment.isPost()) return alone();
+  if (struck.segment.isPost() || penetration <= 0.0) return alone();
   const Vector2 moved =
       motion_.position + moveTo(first, motion_.position, penetration) * first.normal;
   Vector2 middle = Vector2::Zero();

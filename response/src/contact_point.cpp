@@ -275,10 +275,9 @@ ContactPoint contactPoint(const Outline& outline, const Vector2& position, doubl
   }
   const Vector2 moved = position + moveTo(overlap, position, penetration) * overlap.normal;
   const Interference inside = interference(outline, moved, yaw, wall);
-  const Vector2 point =
-      inside.empty
-          ? Vector2(overlap.deepest * turnedLeft(overlap.normal) + overlap.offset * overlap.normal)
-          : inside.middle();
+  // Without penetration rounding decides what is inside.
+  const bool touchesOnly = inside.empty || penetration <= 0.0;
+  const Vector2 point = touchesOnly ? firstPoint(position, overlap).point : inside.middle();
   return {.point = point, .arm = point - moved};
 }
 

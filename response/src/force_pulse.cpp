@@ -59,6 +59,7 @@ PlanarForce ForcePulse::take(double step) {
 }
 
 PlanarImpulse ForcePulse::due(double step) const {
+  if (!(step > 0.0)) return {};
   PlanarImpulse sum = thisStep_;
   for (std::size_t i = 0; i < longCount_; ++i) {
     const Long& pulse = long_[i];

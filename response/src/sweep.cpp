@@ -8,6 +8,12 @@ namespace bumper {
 
 namespace {
 
+// Points that part more slowly than this, m/s, slide over each other.
+constexpr double slidingSpeed = 1e-3;
+
+// How far corners may have gone behind a wall's line while an end of the wall slid along a side, m.
+constexpr double slidingDepth = 0.01;
+
 // Bounds the work where two points part and meet again and again.
 constexpr int maxLooks = 200;
 
@@ -78,7 +84,8 @@ double firstClosed(const Flight& flight, const GapOf& gapOf, double speed, doubl
     } else {
       // They part, and may approach again.
       if (bend == 0.0) return never;
-      wait = std::max(2.0 * gap.rate / bend, shortest);
+      wait = 2.0 * gap.rate / bend;
+      if (gap.rate < slidingSpeed) wait = std::max(wait, shortest);
     }
     const double next = time + wait;
     if (!(next <= until)) return never;
@@ -190,7 +197,7 @@ double timeOfTouch(const Outline& outline, const PlanarMotion& motion, const Wal
     } else if (!wall.solid) {
       const Vector2 place = flight.first.centre + flight.first.turned(corner);
       double height = wall.normal.dot(place - wall.start);
-      if (std::abs(height) <= touchTolerance) {
+      if (std::abs(height) <= (touch != nullptr ? slidingDepth : touchTolerance)) {
         height = wall.normal.dot(flight.first.centre - wall.start);
       }
       front = height < 0.0 ? -1.0 : 1.0;
