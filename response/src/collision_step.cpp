@@ -24,7 +24,7 @@ constexpr double jointWidth = 1e-3;  // m
 
 // Nothing moves so deep into a wall, m; an outline that is was put there, and nothing is known of
 // how it came in.
-constexpr double standsInDepth = 0.01;
+constexpr double standsInDepth = 0.05;
 
 // From this many impacts at one instant on, none rebounds; from the next many on they are solved
 // together. Towards the end of what one step allows none rebounds either.
@@ -144,7 +144,8 @@ bool CollisionStep::isShielded(const Overlap& end) const {
   const Vector2 place = end.deepest * turnedLeft(end.normal) + end.offset * end.normal;
   return std::any_of(walls_.begin(), walls_.end(), [&](const Wall& wall) {
     const auto leadsIn = [&](const Vector2& from, const Vector2& to) {
-      return (from - place).norm() <= jointWidth &&
+      const double distance = (from - place).norm();
+      return distance <= jointWidth && distance < (to - place).norm() &&
              end.normal.dot(to - from) > mergeSine * (to - from).norm();
     };
     return leadsIn(wall.segment.start, wall.segment.end) ||
