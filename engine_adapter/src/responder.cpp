@@ -217,7 +217,7 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
   }
   self.vehicles.push_back(std::move(vehicle));
   // So that step() need not allocate when the first vehicle hits the first wall.
-  self.events.reserve(self.vehicles.size() * (CollisionStep::maxImpacts + 4));
+  self.events.reserve(CollisionStep::maxImpacts + 8 * self.vehicles.size());
   self.segments.reserve(512);
   return {id};
 }

@@ -30,7 +30,7 @@ constexpr double standsInDepth = 0.05;
 // together. Towards the end of what one step allows none rebounds either.
 constexpr int plasticAfter = 8;
 constexpr int togetherAfter = 16;
-constexpr std::size_t plasticInStepAfter = 24;
+constexpr std::size_t plasticInStepAfter = 40;
 
 // Part of a depth that is eased out in a step, and what is left in peace, m.
 constexpr double easeOutShare = 0.2;

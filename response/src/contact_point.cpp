@@ -129,6 +129,20 @@ Overlap touchAtPoint(const Vector2& normal, const Vector2& point, double depth) 
   return touch;
 }
 
+// An end that has slid into a side which is nearly parallel to the wall, and corners that are
+// behind the wall's face: the side lies along the wall.
+bool liesAlong(const WallCorners& corners, const Overlap& face, const Vector2& out, double depth) {
+  constexpr double mostSine = 0.087;   // 5°
+  constexpr double mostDepth = 0.05;   // m
+  constexpr double leastDepth = 1e-8;  // m: less is a touch
+  if (depth < leastDepth || depth > mostDepth || std::abs(cross(out, face.normal)) > mostSine)
+    return false;
+  return std::any_of(corners.begin(), corners.end(), [&](const WallCorner& corner) {
+    return face.start <= corner.along && corner.along <= face.end &&
+           corner.depth >= -touchTolerance && corner.depth < mostDepth;
+  });
+}
+
 std::optional<Overlap> touchPost(const Outline& outline, const Vector2& position, double yaw,
                                  const WallSegment& post) {
   const Vector2 centre = rotated(post.start - position, -yaw);
@@ -228,7 +242,9 @@ std::optional<Overlap> findTouch(const Outline& outline, const Vector2& position
   const double faceDistance = wall.solid ? inFront : std::max(inFront, behind);
 
   const Interference inside = interference(outline, position, yaw, wall);
-  if (outside.distance > faceDistance + touchTolerance) {
+  if (outside.distance > faceDistance + touchTolerance &&
+      !liesAlong(corners, face, rotated(sidesOf(outline)[outside.side].out, yaw),
+                 -outside.distance)) {
     // The end that is the deeper in that side, or the middle if both are.
     const Side side = sidesOf(outline)[outside.side];
     const double atStart = side.out.dot(start) - side.reach;

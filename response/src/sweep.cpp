@@ -12,7 +12,7 @@ namespace {
 constexpr double slidingSpeed = 1e-3;
 
 // How far corners may have gone behind a wall's line while an end of the wall slid along a side, m.
-constexpr double slidingDepth = 0.01;
+constexpr double slidingDepth = 0.05;
 
 // Bounds the work where two points part and meet again and again.
 constexpr int maxLooks = 200;

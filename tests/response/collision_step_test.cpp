@@ -78,9 +78,9 @@ double energyOf(const PlanarMotion& motion) {
 }
 
 /// How fast the first-touched point of an overlap closes on the wall, m/s.
-double approachSpeed(const PlanarMotion& motion, const WallSegment& wall,
-                     const Overlap& overlap) {
-  const ContactPoint first = contactPoint(Outline(car), motion.position, motion.yaw, wall, overlap, 0.0);
+double approachSpeed(const PlanarMotion& motion, const WallSegment& wall, const Overlap& overlap) {
+  const ContactPoint first =
+      contactPoint(Outline(car), motion.position, motion.yaw, wall, overlap, 0.0);
   return -velocityAt(motion, first.arm).dot(overlap.normal);
 }
 
@@ -133,8 +133,8 @@ TEST(CollisionStep, OneWallIsOverlapContactPointAndResponse) {
     ASSERT_TRUE(overlap.has_value());
     const double approach = approachSpeed(motion, wall, *overlap);
     if (approach < 2.0 * paperSettings.restSpeed) continue;  // may be no event
-    const ContactPoint contact = contactPoint(Outline(car), motion.position, motion.yaw, wall, *overlap,
-                                              approach * paperSettings.penetrationTime);
+    const ContactPoint contact = contactPoint(Outline(car), motion.position, motion.yaw, wall,
+                                              *overlap, approach * paperSettings.penetrationTime);
     const Impact impact{.wall = i,
                         .point = contact.point,
                         .normal = overlap->normal,
@@ -458,7 +458,8 @@ TEST(CollisionStep, TheOrderOfTheWallsDoesNotMatter) {
     const PlanarMotion expected = step.resolve(car, motion, walls, 0.0).after;
     for (int k = 0; k < 3; ++k) {
       std::shuffle(walls.begin(), walls.end(), random.engine());
-      expectSameMotion(step.resolve(car, motion, walls, 0.0).after, expected, 1e-8, std::to_string(i));
+      expectSameMotion(step.resolve(car, motion, walls, 0.0).after, expected, 1e-8,
+                       std::to_string(i));
       if (HasFatalFailure()) return;
     }
   }

@@ -156,7 +156,8 @@ TEST_P(ContactPointOf, ContactIsTheMiddleOfTheWallInside) {
       const std::optional<Plane> arm = exactArm(s.outline, s.centre, s.yaw, *exact, penetration);
       if (!arm) continue;
       ++compared;
-      const ContactPoint contact = contactPoint(s.outline, s.centre, s.yaw, s.wall, *overlap, penetration);
+      const ContactPoint contact =
+          contactPoint(s.outline, s.centre, s.yaw, s.wall, *overlap, penetration);
       // Where a side is nearly parallel to the wall, the wall's cut moves by 1/sin of the angle.
       const double tolerance = GetParam().heading == Heading::flush ? position : 1e-8;
       ASSERT_NEAR(apart(contact.arm, *arm), 0.0, tolerance)
@@ -206,8 +207,8 @@ TEST_P(ContactPointOf, HowDeepTheStepWentDoesNotMatter) {
     if (!deeperOverlap) continue;
     const double penetration = random.uniform(0.0, 0.2);
     const ContactPoint a = contactPoint(s.outline, s.centre, s.yaw, s.wall, *overlap, penetration);
-    const ContactPoint b =
-        contactPoint(deeper.outline, deeper.centre, deeper.yaw, deeper.wall, *deeperOverlap, penetration);
+    const ContactPoint b = contactPoint(deeper.outline, deeper.centre, deeper.yaw, deeper.wall,
+                                        *deeperOverlap, penetration);
     ASSERT_NEAR((a.arm - b.arm).norm(), 0.0, 1e-8) << i << '\n' << s;
     ASSERT_NEAR((a.point - b.point).norm(), 0.0, 1e-8) << i << '\n' << s;
   }
@@ -238,7 +239,8 @@ TEST(ContactPoint, PenetrationEndsAtTheMassCentre) {
     const double toCentre = overlap->depth + overlap->normal.dot(s.centre) - overlap->offset;
     const ContactPoint most = contactPoint(s.outline, s.centre, s.yaw, s.wall, *overlap, toCentre);
     for (const double beyond : {toCentre + 0.5, 100.0}) {
-      const ContactPoint contact = contactPoint(s.outline, s.centre, s.yaw, s.wall, *overlap, beyond);
+      const ContactPoint contact =
+          contactPoint(s.outline, s.centre, s.yaw, s.wall, *overlap, beyond);
       ASSERT_NEAR((contact.arm - most.arm).norm(), 0.0, 1e-9) << i << '\n' << s;
       ASSERT_NEAR(overlap->normal.dot(contact.arm), 0.0, 1e-9) << i << '\n' << s;
     }

@@ -46,7 +46,7 @@ class CollisionStep {
 
   /// At most this many impulses are applied in one step. The last of them ends all approach, and
   /// the vehicle is held where it is until the next step.
-  static constexpr int maxImpacts = 32;
+  static constexpr int maxImpacts = 48;
   /// An outline is eased out of a wall no faster than this, m/s.
   static constexpr double maxEaseOut = 2.0;
 
