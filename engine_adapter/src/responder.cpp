@@ -101,8 +101,11 @@ BarrierId add(Responder::Implementation& responder, const BarrierOptions& option
       id, source..., options, std::move(name),
       exact ? BarrierMesh::Query::list_triangles : BarrierMesh::Query::make_contacts,
       responder.options.response);
+  responder.longestPenetrationTime =
+      std::max(responder.longestPenetrationTime, barrier->longestPenetrationTime());
   responder.barrierOfGeom.emplace(barrier->geom(), barrier.get());
   responder.barriers.push_back(std::move(barrier));
+  responder.forgetClearPlaces();
   return id;
 }
 

@@ -17,6 +17,14 @@
 
 namespace bumper {
 
+/// Where a vehicle was when no wall was near, and how far it can come from there.
+struct ClearPlace {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  double distance = 0.0;  ///< m; 0: there is a wall, or it is not known
+  int stepsUntilLook = 0;
+};
+
 struct Vehicle {
   Vehicle(VehicleId id, const VehicleParameters& itsParameters, const Band& band, double tiltLimit,
           std::string itsName, VehicleBodies itsBodies)
@@ -38,6 +46,7 @@ struct Vehicle {
   double minUprightness;
   VehicleMemory memory;
   VehicleMemory memoryBefore;  // as it was before the last step()
+  ClearPlace clear;
   unsigned issues = step_issue::none;
 
   /// False also where the rotation is not finite.
@@ -67,6 +76,8 @@ struct Responder::Implementation {
   unsigned issues = step_issue::none;
   std::vector<ImpactEvent> events;
 
+  double longestPenetrationTime = 0.0;  // of all barriers there ever were, s
+
   // Scratch memory, kept from step to step.
   CollisionStep collision;
   std::vector<WallSegment> segments;
@@ -79,6 +90,8 @@ struct Responder::Implementation {
   void stepVehicle(Vehicle& vehicle, double h);
   void collectWalls(Vehicle& vehicle, const VehicleState& state, const PlanarMotion& motion,
                     double h);
+  bool isFarFromWalls(Vehicle& vehicle, const VehicleState& state, double reach);
+  void forgetClearPlaces();
   void leaveOutPassages(Vehicle& vehicle);
   void answerCuts(Vehicle& vehicle, const VehicleState& state, const PlanarMotion& motion,
                   double h);

@@ -214,17 +214,49 @@ void Responder::Implementation::leaveOutPassages(Vehicle& vehicle) {
   });
 }
 
+void Responder::Implementation::forgetClearPlaces() {
+  for (const std::unique_ptr<Vehicle>& vehicle : vehicles) {
+    if (vehicle != nullptr) vehicle->clear = {};
+  }
+}
+
+// One look into the distance serves until the vehicle has come so far.
+bool Responder::Implementation::isFarFromWalls(Vehicle& vehicle, const VehicleState& state,
+                                               double reach) {
+  constexpr double distance = 2.0;       // m beyond the reach
+  constexpr int stepsBetweenLooks = 32;  // while there is something
+  ClearPlace& clear = vehicle.clear;
+  if (clear.distance > 0.0) {
+    const double moved = (state.massCentre - clear.centre).norm() +
+                         vehicle.query.radius() * (state.axes - clear.axes).norm();
+    if (moved + reach <= clear.distance) return true;
+    clear.distance = 0.0;
+  }
+  if (clear.stepsUntilLook > 0) {
+    --clear.stepsUntilLook;
+    return false;
+  }
+  const bool isClear = std::all_of(barriers.begin(), barriers.end(), [&](const auto& barrier) {
+    return barrier == nullptr || vehicle.query.isClear(*barrier, state, reach + distance);
+  });
+  if (!isClear) {
+    clear.stepsUntilLook = stepsBetweenLooks;
+    return false;
+  }
+  clear = {.centre = state.massCentre, .axes = state.axes, .distance = reach + distance};
+  return true;
+}
+
 void Responder::Implementation::collectWalls(Vehicle& vehicle, const VehicleState& state,
                                              const PlanarMotion& motion, double h) {
   const VehicleParameters parameters = withMassOf(vehicle.parameters, state);
-  segments.clear();
+  const double reach = CollisionStep::reach(parameters, motion, longestPenetrationTime, h);
+  if (isFarFromWalls(vehicle, state, reach)) return;
   firstIds.clear();
   int nextId = 0;
   for (const std::unique_ptr<Barrier>& barrier : barriers) {
     firstIds.push_back(nextId);
     if (barrier == nullptr) continue;
-    const double reach =
-        CollisionStep::reach(parameters, motion, barrier->longestPenetrationTime(), h);
     vehicle.query.append(*barrier, state, reach, nextId, segments);
     nextId += barrier->wallCount();
   }

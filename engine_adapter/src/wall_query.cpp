@@ -85,17 +85,28 @@ WallQuery::WallQuery(const VehicleParameters& parameters, const Band& band)
 
 WallQuery::~WallQuery() { dGeomDestroy(box_); }
 
-void WallQuery::placeBox(const VehicleState& state, double reach, double margin) {
+// The outline over the band, enlarged on every side.
+void WallQuery::placeBox(const VehicleState& state, double aside, double upAndDown) {
   const Eigen::Vector3d middle(0.5 * (outline_.front - outline_.rear), 0.0, 0.5 * (low_ + high_));
   const Eigen::Vector3d place = state.massCentre + state.axes * middle;
   dMatrix3 rotation = {state.axes(0, 0), state.axes(0, 1), state.axes(0, 2), 0.0,
                        state.axes(1, 0), state.axes(1, 1), state.axes(1, 2), 0.0,
                        state.axes(2, 0), state.axes(2, 1), state.axes(2, 2), 0.0};
-  const double around = reach + margin;
-  dGeomBoxSetLengths(box_, outline_.front + outline_.rear + 2.0 * around,
-                     2.0 * outline_.halfWidth + 2.0 * around, high_ - low_ + 2.0 * margin);
+  dGeomBoxSetLengths(box_, outline_.front + outline_.rear + 2.0 * aside,
+                     2.0 * outline_.halfWidth + 2.0 * aside, high_ - low_ + 2.0 * upAndDown);
   dGeomSetPosition(box_, place.x(), place.y(), place.z());
   dGeomSetRotation(box_, rotation);
+}
+
+bool WallQuery::isClear(const Barrier& barrier, const VehicleState& state, double distance) {
+  if (const PrimitiveWall* primitive = barrier.primitive()) {
+    return !primitive->cut(state, low_ - distance, high_ + distance, radius_ + distance);
+  }
+  const BarrierMesh& mesh = *barrier.mesh();
+  if (!mesh.reaches(state.massCentre, radius_ + distance)) return true;
+  placeBox(state, distance + mesh.margin(), distance + mesh.margin());
+  mesh.list(box_, near_);
+  return near_.empty();
 }
 
 void WallQuery::append(const Barrier& barrier, const VehicleState& state, double reach, int firstId,
@@ -113,7 +124,7 @@ void WallQuery::append(const Barrier& barrier, const VehicleState& state, double
   }
   const BarrierMesh& mesh = *barrier.mesh();
   if (!mesh.reaches(state.massCentre, radius_ + reach)) return;
-  placeBox(state, reach, mesh.margin());
+  placeBox(state, reach + mesh.margin(), mesh.margin());
   mesh.list(box_, near_);
   for (const int wall : near_) {
     std::optional<WallSegment> segment =

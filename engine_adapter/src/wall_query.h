@@ -30,6 +30,10 @@ class WallQuery {
   void append(const Barrier& barrier, const VehicleState& state, double reach, int firstId,
               std::vector<WallSegment>& segments);
 
+  /// Whether no triangle of the barrier comes near the outline, over the band, enlarged by
+  /// `distance` in all directions, m. False if in doubt.
+  bool isClear(const Barrier& barrier, const VehicleState& state, double distance);
+
   [[nodiscard]] const Outline& outline() const { return outline_; }
   /// Of a sphere around the mass centre that holds the outline over the band, m.
   [[nodiscard]] double radius() const { return radius_; }
@@ -49,7 +53,7 @@ class WallQuery {
                                double lowestTop) const;
 
  private:
-  void placeBox(const VehicleState& state, double reach, double margin);
+  void placeBox(const VehicleState& state, double aside, double upAndDown);
 
   Outline outline_;
   double low_;  // the band in the vehicle's frame

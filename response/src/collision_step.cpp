@@ -163,6 +163,11 @@ std::optional<Overlap> CollisionStep::overlapWith(const WallSegment& wall, doubl
   return touch;
 }
 
+void CollisionStep::lookAround(double time) {
+  findTouched(time);
+  findHidden();
+}
+
 void CollisionStep::findTouched(double time) {
   for (Wall& wall : walls_) {
     const std::optional<Overlap> overlap = overlapWith(wall.segment, time);
@@ -375,8 +380,6 @@ void CollisionStep::answerTogether(double time) {
 
 // Applies impulses until nothing that touches approaches.
 CollisionStep::Settled CollisionStep::settle(double time) {
-  findTouched(time);
-  findHidden();
   for (int count = 0;; ++count) {
     Next next = firstNewWall();
     if (next.wall == nullptr) next = fastestStruckWall();
@@ -450,11 +453,13 @@ StepOutcome CollisionStep::resolve(const VehicleParameters& vehicle, const Plana
   StepOutcome outcome;
   mergeWalls(walls, motion_.position);
 
+  lookAround(0.0);
   if (h > 0.0) {
-    findTouched(0.0);
-    findHidden();
     outcome.shift.velocity = easeOut(h);
-    motion_.position += h * outcome.shift.velocity;
+    if (!outcome.shift.velocity.isZero(0.0)) {
+      motion_.position += h * outcome.shift.velocity;
+      lookAround(0.0);
+    }
   }
 
   double time = 0.0;
@@ -465,6 +470,7 @@ StepOutcome CollisionStep::resolve(const VehicleParameters& vehicle, const Plana
     if (next.wall == nullptr && look >= h) break;
     motion_ = advanced(motion_, next.time - time);
     time = next.time;
+    lookAround(time);
     settled = settle(time);
     if (settled == Settled::without_impulse && next.wall != nullptr) {
       next.wall->unheardOf = time + lookAgain * h;

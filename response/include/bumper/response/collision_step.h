@@ -100,6 +100,7 @@ class CollisionStep {
   enum class Settled { without_impulse, by_impulses, for_now };
 
   void mergeWalls(std::span<const WallSegment> walls, const Vector2& centre);
+  void lookAround(double time);
   void findTouched(double time);
   [[nodiscard]] std::optional<Overlap> overlapWith(const WallSegment& wall, double time) const;
   [[nodiscard]] bool isShielded(const Overlap& end) const;
