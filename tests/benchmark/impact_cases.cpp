@@ -121,7 +121,7 @@ class CaseMaker {
         slideAt(result, random_.sign() * std::pow(10.0, random_.between(-12.0, -2.0)));
         break;
       case CaseKind::wall_end: {
-        const double off = random_.sign() * std::pow(10.0, random_.between(-8.0, 0.0));
+        const double off = random_.sign() * std::pow(10.0, random_.between(-6.0, 0.0));
         driveAt(result, random_.chance(0.5) ? off : wallLength - off, 0.0, 0.0);
         break;
       }

@@ -23,8 +23,8 @@ enum class CaseKind {
   varied,      ///< … with side slip and yaw rate
   flush,       ///< a side parallel to the wall
   near_flush,  ///< … but for 1e-12 to 1e-2 rad
-  wall_end,  ///< a corner within 1e-8 to 1 m of the wall's end; at 1e-9 m it touches both, and the
-             ///< law does not say whose normal counts
+  wall_end,    ///< a corner within 1e-6 to 1 m of the wall's end; much nearer, corner and end touch
+               ///< within the law's 1e-9 m, and it does not say whose normal counts
   bare_end   ///< the wall's end meets a side
 };
 inline constexpr int caseKinds = 7;

@@ -234,8 +234,15 @@ class FlightComputer {
   }
 
   [[nodiscard]] bool touches(const Pair& pair, const Pose& pose, Real value) const {
-    const Real sunk = pair.isCorner ? touchGap : deepestTouch;
-    return value <= touchGap && value >= -sunk && faces(pair, pose);
+    if (value > touchGap || !faces(pair, pose)) return false;
+    if (value >= -touchGap) return true;
+    if (pair.isCorner || value < -deepestTouch) return false;
+    // Beside a corner an end is close behind two sides, and touches that which it is nearer to.
+    return std::ranges::all_of(std::array<std::size_t, 3>{1, 2, 3}, [&](std::size_t next) {
+      return distance({.isCorner = false, .point = pair.point, .side = (pair.side + next) % 4},
+                      pose)
+                 .value < value;
+    });
   }
 
   /// Sign · distance + offset at a time from now.
