@@ -8,7 +8,7 @@ namespace bumper {
 
 namespace {
 
-// Points that part more slowly than this, m/s, slide over each other.
+// Points that touch and part more slowly than this, m/s, slide over each other.
 constexpr double slidingSpeed = 1e-3;
 
 // How far corners may have gone behind a wall's line while an end of the wall slid along a side, m.
@@ -82,10 +82,9 @@ double firstClosed(const Flight& flight, const GapOf& gapOf, double speed, doubl
       // The last look came short by rounding's worth.
       return std::clamp(time - gap.distance / gap.rate, from, until);
     } else {
-      // They part, and may approach again.
-      if (bend == 0.0) return never;
+      // They part, and may approach again; what only slides is looked at by others.
+      if (bend == 0.0 || gap.rate < slidingSpeed) return never;
       wait = 2.0 * gap.rate / bend;
-      if (gap.rate < slidingSpeed) wait = std::max(wait, shortest);
     }
     const double next = time + wait;
     if (!(next <= until)) return never;
