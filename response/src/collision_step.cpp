@@ -158,8 +158,13 @@ std::optional<Overlap> CollisionStep::overlapWith(const WallSegment& wall, doubl
   if (wall.settings->method == Method::paper) return byFace();
   std::optional<Overlap> touch = findTouch(outline_, motion_.position, motion_.yaw, wall);
   if (!touch || wall.isPost()) return touch;
-  const bool wasPutThere = time == 0.0 && touch->depth > standsInDepth;
-  if (wasPutThere || (touch->byEnd && isShielded(*touch))) return byFace();
+  if (time == 0.0 && touch->depth > standsInDepth) return byFace();
+  if (touch->byEnd && isShielded(*touch)) {
+    // The corner of two walls, one of which it touches; or nothing that could be touched.
+    std::optional<Overlap> face = byFace();
+    if (face && time > 0.0 && face->depth > standsInDepth) return std::nullopt;
+    return face;
+  }
   return touch;
 }
 
@@ -391,10 +396,14 @@ CollisionStep::Settled CollisionStep::settle(double time) {
     }
     const Overlap& overlap = next.wall->overlap;
     const bool slides = time > 0.0 && overlap.byEnd && overlap.depth > slidingDepth;
-    const bool manyAlready = count >= plasticAfter || impacts_.size() >= plasticInStepAfter;
-    const Rebound rebound = manyAlready ? Rebound::none
-                            : slides    ? Rebound::elastic
-                                        : Rebound::as_set;
+    Rebound rebound = Rebound::as_set;
+    if (count >= plasticAfter) {
+      rebound = Rebound::none;
+    } else if (slides) {
+      rebound = Rebound::elastic;
+    } else if (impacts_.size() >= plasticInStepAfter) {
+      rebound = Rebound::none;
+    }
     answer(next, time, rebound);
     impacts_.back().slides = slides;
   }

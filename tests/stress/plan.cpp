@@ -42,7 +42,7 @@ double deepestIntrusion(const VehicleParameters& vehicle, const PlanarMotion& po
 }
 
 double slidingDepth(const VehicleParameters& vehicle, const PlanarMotion& motion, double h) {
-  constexpr double touch = 1e-3;  // m: what may add up over the steps before it is eased out
+  constexpr double touch = 2e-3;  // m: what may add up over the steps before it is eased out
   const double radius = std::hypot(std::max(vehicle.massCentreToFront, vehicle.massCentreToRear),
                                    0.5 * vehicle.width);
   const double turning = std::abs(motion.yawRate);
