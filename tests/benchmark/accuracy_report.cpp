@@ -243,13 +243,13 @@ void writeMarkdown(std::ostream& out, const Results& results) {
 /// One plot for each setting, with a panel for each wall.
 void writePlots(std::ostream& out, const Results& results, const std::string& stem) {
   constexpr std::array<const char*, 2> places = {
-      "set lmargin at screen 0.06\nset rmargin at screen 0.39\nset nokey\n",
-      "set lmargin at screen 0.46\nset rmargin at screen 0.79\n"
-      "set key at screen 0.99,0.9 right top samplen 2 spacing 1.3\n"};
+      "set lmargin at screen 0.06\nset rmargin at screen 0.37\nset nokey\n",
+      "set lmargin at screen 0.43\nset rmargin at screen 0.74\n"
+      "set key at screen 0.76,0.9 left top Left reverse samplen 2 spacing 1.3\n"};
   out << "set terminal pngcairo size 1600,640 font 'sans,12' background rgb 'white'\n"
          "set border 3 lc rgb '#404040'\nset tics nomirror\n"
          "set grid lc rgb '#dddddd' lw 1 lt 1\nset logscale xy\n"
-         "set format '10^{%T}'\nset xrange [1e-16:1e2]\nset yrange [30:1e5]\n"
+         "set format '10^{%T}'\nset yrange [30:1e5]\n"
          "set xlabel 'error of {/Symbol D}v, 99th percentile, relative'\n"
          "set ylabel 'CPU time, {/Symbol m}s per simulated second'\n";
   for (const Setting setting : {Setting::free_flight, Setting::tyres}) {
@@ -282,6 +282,7 @@ void writePlots(std::ostream& out, const Results& results, const std::string& st
              << lines.str() << '\n';
     }
     out << "set output '" << stem << '_' << nameOf(setting) << ".png'\n"
+        << "set xrange [" << (setting == Setting::tyres ? "1e-5" : "1e-16") << ":1e2]\n"
         << "set multiplot layout 1,2\n"
         << panels.str() << "unset multiplot\n";
   }

@@ -25,7 +25,7 @@ enum class CaseKind {
   near_flush,  ///< … but for 1e-12 to 1e-2 rad
   wall_end,    ///< a corner within 1e-6 to 1 m of the wall's end; much nearer, corner and end touch
                ///< within the law's 1e-9 m, and it does not say whose normal counts
-  bare_end   ///< the wall's end meets a side
+  bare_end     ///< the wall's end meets a side
 };
 inline constexpr int caseKinds = 7;
 const char* nameOf(CaseKind kind);

@@ -247,12 +247,14 @@ TEST(ReferenceFlight, UnderAConstantForceAThrownCarLandsOnTime) {
 }
 
 TEST(ReferenceFlight, AnEndBesideACornerTouchesOneSideOnly) {
-  // 50 nm from the front left corner, on the front: nothing pushes sideways.
-  const StraightWall wall{.start = {2.1, 0.9 - 5e-8}, .end = {30.0, 5.0}};
-  const PlanarMotion start{.position = {-0.5, 0.0}, .velocity = {20.0, 0.0}};
-  const Flight flight = freeFlight(car, start, wall, fixedLaw(0.1, 0.0, 0.0025), 0.026);
-  EXPECT_EQ(flight.impulses, 1);
-  EXPECT_NEAR(flight.end.velocity.y(), 0.0, 1e-14);
+  // Close to the front left corner, on the front: nothing pushes sideways.
+  for (const double off : {2e-9, 5e-9, 5e-8, 1e-6}) {
+    const StraightWall wall{.start = {2.1, 0.9 - off}, .end = {30.0, 5.0}};
+    const PlanarMotion start{.position = {-0.5, 0.0}, .velocity = {20.0, 0.0}};
+    const Flight flight = freeFlight(car, start, wall, fixedLaw(0.1, 0.0, 0.0025), 0.026);
+    EXPECT_EQ(flight.impulses, 1) << off;
+    EXPECT_NEAR(flight.end.velocity.y(), 0.0, 1e-14) << off;
+  }
 }
 
 TEST(ReferenceFlight, APressingEndStaysOnItsSideAndTakesEnergy) {

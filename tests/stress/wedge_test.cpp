@@ -80,7 +80,7 @@ Ride pushInto(const Plan& plan, const PlanarMotion& start, double h) {
     before = now;
     if (i % second == 0) {
       const double moved = (now.position - secondAgo.position).norm();
-      if (moved < 1e-4 && std::abs(now.yaw - secondAgo.yaw) < 1e-4) ride.rest = i * h;
+      if (moved < 1e-3 && std::abs(now.yaw - secondAgo.yaw) < 1e-3) ride.rest = i * h;
       secondAgo = now;
     }
   }
