@@ -396,14 +396,10 @@ CollisionStep::Settled CollisionStep::settle(double time) {
     }
     const Overlap& overlap = next.wall->overlap;
     const bool slides = time > 0.0 && overlap.byEnd && overlap.depth > slidingDepth;
-    Rebound rebound = Rebound::as_set;
-    if (count >= plasticAfter) {
-      rebound = Rebound::none;
-    } else if (slides) {
-      rebound = Rebound::elastic;
-    } else if (impacts_.size() >= plasticInStepAfter) {
-      rebound = Rebound::none;
-    }
+    const bool tooMany =
+        count >= plasticAfter || (!slides && impacts_.size() >= plasticInStepAfter);
+    Rebound rebound = slides ? Rebound::elastic : Rebound::as_set;
+    if (tooMany) rebound = Rebound::none;
     answer(next, time, rebound);
     impacts_.back().slides = slides;
   }
