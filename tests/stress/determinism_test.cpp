@@ -27,7 +27,7 @@ constexpr std::size_t cars = 6;
 class Hash {
  public:
   void add(double value) {
-    std::uint64_t bits = std::bit_cast<std::uint64_t>(value);
+    auto bits = std::bit_cast<std::uint64_t>(value);
     for (int i = 0; i < 8; ++i) {
       value_ = (value_ ^ (bits & 0xffU)) * 0x100000001b3ULL;
       bits >>= 8U;
@@ -41,7 +41,7 @@ class Hash {
 
 // In the paper's L-shaped wall, each another way. Cars do not hit each other here.
 PlanarMotion startOf(std::size_t car) {
-  const double number = static_cast<double>(car);
+  const auto number = static_cast<double>(car);
   return {.position = {46.0 + 1.5 * number, 6.0 + number},
           .yaw = 0.15 * (number - 2.0),
           .velocity = {15.0 + 2.0 * number, 2.0 * (number - 3.0)},
@@ -122,7 +122,7 @@ std::uint64_t hashOf(const std::array<std::size_t, cars>& order, bool wallsRever
 constexpr std::uint64_t golden = 9051259365469355934U;
 
 TEST(Determinism, GoldenHash) {
-  if (__builtin_cpu_supports("fma") == 0) {
+  if (!static_cast<bool>(__builtin_cpu_supports("fma"))) {
     GTEST_SKIP() << "the C library's sine differs in its last bit on processors without FMA";
   }
   EXPECT_EQ(hashOf(inOrder, false), golden);

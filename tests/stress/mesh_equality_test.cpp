@@ -105,7 +105,8 @@ Scene doubled(Scene scene) {
     scene.triangles.push_back({.corners = {a, c, b}, .mesh = 0});
     const auto first = static_cast<std::uint32_t>(scene.vertices.size());
     for (const std::uint32_t corner : {a, b, c}) {
-      scene.vertices.push_back(Eigen::Vector3d(scene.vertices[corner]));
+      const Eigen::Vector3d again = scene.vertices[corner];  // the list moves when it grows
+      scene.vertices.push_back(again);
     }
     scene.triangles.push_back({.corners = {first, first + 1, first + 2}, .mesh = 0});
   }

@@ -230,7 +230,7 @@ TEST(MillionImpacts, ThroughOde) {
     const std::optional<OdeCase> given = randomOdeCase(random, car.parameters, i);
     if (!given) continue;
     const Scene scene = withBadTriangles(
-        random, standing(given->plan, 1.0, static_cast<std::size_t>(1 + random.below(4)), 1));
+        random, standing(given->plan, 1.0, 1 + static_cast<std::size_t>(random.below(4)), 1));
     Responder responder(ode.world, {.response = given->settings});
     responder.addBarrier(scene);
     responder.addVehicle(car.body, car.parameters);

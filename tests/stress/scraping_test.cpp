@@ -194,7 +194,7 @@ TEST(ScrapingWithContactJoints, Catches) {
     std::printf(
         "[ figures  ] joints: loss %.3f m/s a step, rise %.3f m/s, energy %.3f, deepest "
         "%.3f m, through %d, end speed %.2f\n",
-        run.largestLoss, run.topRise, run.mostEnergy, run.deepest, run.ledThrough,
+        run.largestLoss, run.topRise, run.mostEnergy, run.deepest, static_cast<int>(run.ledThrough),
         run.end.velocity.norm());
     largestLoss = std::max(largestLoss, run.largestLoss);
     topRise = std::max(topRise, run.topRise);

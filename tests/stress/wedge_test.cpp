@@ -206,7 +206,7 @@ TEST(WedgeWithContactJoints, SinksInOrLetsThrough) {
           {.step = 0.005, .duration = 5.0, .panels = 20, .rows = 2},
           [](BoxCar& car) { dBodyAddForce(car.body, -push * car.parameters.mass, 0.0, 0.0); });
       std::printf("[ figures  ] joints, %g deg, %g m/s: deepest %.3f m, energy %.3f, through %d\n",
-                  opening, speed, run.deepest, run.mostEnergy, run.ledThrough);
+                  opening, speed, run.deepest, run.mostEnergy, static_cast<int>(run.ledThrough));
       deepest = std::max(deepest, run.deepest);
       through += run.ledThrough ? 1 : 0;
     }
