@@ -108,6 +108,11 @@ void Barrier::keepSettings(const BarrierOptions& options, const ResponseSettings
   }
 }
 
+double Barrier::clearanceAtLeast(const Eigen::Vector3d& place, double height) const {
+  return mesh_ ? mesh_->clearance().atLeast(place.x(), place.y())
+               : primitive_->clearanceAtLeast(place, height);
+}
+
 int Barrier::wallCount() const { return mesh_ ? static_cast<int>(mesh_->walls().size()) : 1; }
 
 const std::string& Barrier::materialOf(int wall) const {

@@ -37,6 +37,10 @@ class Barrier {
     return primitive_ ? &*primitive_ : nullptr;
   }
 
+  /// A distance, m, within which of a place of the world no wall comes, even if the place is moved
+  /// up or down by `height`, m; measured horizontally for a mesh. 0 if in doubt.
+  [[nodiscard]] double clearanceAtLeast(const Eigen::Vector3d& place, double height) const;
+
   [[nodiscard]] int wallCount() const;
   [[nodiscard]] const std::string& materialOf(int wall) const;
   [[nodiscard]] int triangleOf(int wall) const;  ///< −1 if the geom has none

@@ -80,6 +80,7 @@ void BarrierMesh::keepWalls(const Scene& scene, Walls selected) {
                 " triangles are flatter than WallSelection::maxNormalUp allows, or degenerate");
   }
   walls_ = std::move(selected.walls);
+  clearance_ = ClearanceMap(walls_);
   report_ = selected.report;
   for (const SceneMesh& mesh : scene.meshes) materials_.push_back(mesh.material);
   low_.setConstant(std::numeric_limits<double>::infinity());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bumper/engine_adapter/barrier.h"
+#include "bumper/scenes/clearance_map.h"
 #include "bumper/scenes/scene.h"
 #include "bumper/scenes/wall_parts.h"
 
@@ -52,6 +53,9 @@ class BarrierMesh {
   /// Whether a sphere reaches the walls' bounding box.
   [[nodiscard]] bool reaches(const Eigen::Vector3d& centre, double radius) const;
 
+  /// How far the nearest wall is at least.
+  [[nodiscard]] const ClearanceMap& clearance() const { return clearance_; }
+
   /// Fills `walls` with the indices of those that ODE's collider finds at the box. The collider
   /// works in single precision: make the box larger by margin() on every side.
   void list(dGeomID box, std::vector<int>& walls) const;
@@ -65,6 +69,7 @@ class BarrierMesh {
 
   std::string name_;
   std::vector<Wall> walls_;
+  ClearanceMap clearance_;
   WallReport report_;
   std::vector<std::string> materials_;
   std::vector<int> meshOfWall_;

@@ -66,4 +66,12 @@ std::optional<WallSegment> PrimitiveWall::cut(const VehicleState& state, double 
   return wall;
 }
 
+double PrimitiveWall::clearanceAtLeast(const Eigen::Vector3d& place, double height) const {
+  const Eigen::Vector3d away = place - place_;
+  if (isPost()) {
+    return direction_.cross(away).norm() - radius_ - height * direction_.head<2>().norm();
+  }
+  return direction_.dot(away) - height * std::abs(direction_.z());
+}
+
 }  // namespace bumper

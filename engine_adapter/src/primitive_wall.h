@@ -22,6 +22,10 @@ class PrimitiveWall {
   [[nodiscard]] std::optional<WallSegment> cut(const VehicleState& state, double low, double high,
                                                double reach) const;
 
+  /// Distance to the plane, or to the post as if it had no ends, from the nearest of the places
+  /// up to `height` above or below one, m.
+  [[nodiscard]] double clearanceAtLeast(const Eigen::Vector3d& place, double height) const;
+
   [[nodiscard]] double foot() const { return foot_; }
   [[nodiscard]] double top() const { return top_; }
   [[nodiscard]] bool isPost() const { return radius_ > 0.0; }

@@ -105,7 +105,7 @@ BarrierId add(Responder::Implementation& responder, const BarrierOptions& option
       std::max(responder.longestPenetrationTime, barrier->longestPenetrationTime());
   responder.barrierOfGeom.emplace(barrier->geom(), barrier.get());
   responder.barriers.push_back(std::move(barrier));
-  responder.forgetClearPlaces();
+  responder.forgetSurroundings();
   return id;
 }
 
@@ -222,6 +222,7 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
   // So that step() need not allocate when the first vehicle hits the first wall.
   self.events.reserve(CollisionStep::maxImpacts + 8 * self.vehicles.size());
   self.segments.reserve(512);
+  self.active.reserve(self.vehicles.size());
   return {id};
 }
 
@@ -235,6 +236,7 @@ void Responder::removeBarrier(BarrierId barrier) {
       std::erase_if(memory->contacts, isOfIt);
     }
   }
+  implementation_->forgetSurroundings();
   implementation_->barrierOfGeom.erase(removed.geom());
   implementation_->barriers[static_cast<std::size_t>(barrier.value)].reset();
 }
@@ -329,6 +331,7 @@ void Responder::restore(const SavedState& state) {
     vehicle.memory = memory;
     vehicle.memoryBefore = memory;
   }
+  self.forgetSurroundings();
   self.time = state.time;
 }
 

@@ -12,18 +12,12 @@
 #include "barrier.h"
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/response/collision_step.h"
+#include "free_space.h"
+#include "nearby_walls.h"
 #include "vehicle_bodies.h"
 #include "wall_query.h"
 
 namespace bumper {
-
-/// Where a vehicle was when no wall was near, and how far it can come from there.
-struct ClearPlace {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-  double distance = 0.0;  ///< m; 0: there is a wall, or it is not known
-  int stepsUntilLook = 0;
-};
 
 struct Vehicle {
   Vehicle(VehicleId id, const VehicleParameters& itsParameters, const Band& band, double tiltLimit,
@@ -31,8 +25,9 @@ struct Vehicle {
       : parameters(itsParameters),
         name(std::move(itsName)),
         bodies(std::move(itsBodies)),
-        query(itsParameters, band),
-        minUprightness(std::cos(tiltLimit)) {
+        minUprightness(std::cos(tiltLimit)),
+        freeSpace(bodies, itsParameters, band, minUprightness),
+        query(itsParameters, band) {
     memory.vehicle = id;
     memory.passages.reserve(4);
     memory.contacts.reserve(4);
@@ -42,11 +37,12 @@ struct Vehicle {
   VehicleParameters parameters;
   std::string name;
   VehicleBodies bodies;
-  WallQuery query;
   double minUprightness;
+  FreeSpace freeSpace;
+  WallQuery query;
+  NearbyWalls nearby;
   VehicleMemory memory;
   VehicleMemory memoryBefore;  // as it was before the last step()
-  ClearPlace clear;
   unsigned issues = step_issue::none;
 
   /// False also where the rotation is not finite.
@@ -76,22 +72,25 @@ struct Responder::Implementation {
   unsigned issues = step_issue::none;
   std::vector<ImpactEvent> events;
 
+  double gravity = 0.0;                 // the world's, m/s²
   double longestPenetrationTime = 0.0;  // of all barriers there ever were, s
 
   // Scratch memory, kept from step to step.
   CollisionStep collision;
   std::vector<WallSegment> segments;
-  std::vector<int> firstIds;  // of each barrier's walls among the segments' ids
+  std::vector<Vehicle*> active;  // those that are not certainly away from all walls
 
   /// The pair in either order, if Bumper may own contacts of it.
   [[nodiscard]] OwnedPair pairOf(dGeomID a, dGeomID b) const;
+
+  /// What is known of the room around vehicles is no longer true.
+  void forgetSurroundings();
 
   void reconsiderLastStep();
   void stepVehicle(Vehicle& vehicle, double h);
   void collectWalls(Vehicle& vehicle, const VehicleState& state, const PlanarMotion& motion,
                     double h);
-  bool isFarFromWalls(Vehicle& vehicle, const VehicleState& state, double reach);
-  void forgetClearPlaces();
+  void noticeGravity();
   void leaveOutPassages(Vehicle& vehicle);
   void answerCuts(Vehicle& vehicle, const VehicleState& state, const PlanarMotion& motion,
                   double h);

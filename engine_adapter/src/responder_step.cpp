@@ -72,8 +72,8 @@ double turnSince(const Eigen::Matrix3d& before, const Eigen::Matrix3d& now) {
 // Puts right what the world's last step did not do as it was told.
 void Responder::Implementation::reconsiderLastStep() {
   bool repeated = false;
-  for (const std::unique_ptr<Vehicle>& each : vehicles) {
-    if (each == nullptr || !each->memory.delivery.any) continue;
+  for (Vehicle* each : active) {
+    if (!each->memory.delivery.any) continue;
     Vehicle& vehicle = *each;
     VehicleMemory& memory = vehicle.memory;
     double worldStep = 0.0;
@@ -214,52 +214,28 @@ void Responder::Implementation::leaveOutPassages(Vehicle& vehicle) {
   });
 }
 
-void Responder::Implementation::forgetClearPlaces() {
+void Responder::Implementation::forgetSurroundings() {
   for (const std::unique_ptr<Vehicle>& vehicle : vehicles) {
-    if (vehicle != nullptr) vehicle->clear = {};
+    if (vehicle == nullptr) continue;
+    vehicle->freeSpace.forget();
+    vehicle->nearby.forget();
   }
 }
 
-// One look into the distance serves until the vehicle has come so far.
-bool Responder::Implementation::isFarFromWalls(Vehicle& vehicle, const VehicleState& state,
-                                               double reach) {
-  constexpr double distance = 2.0;       // m beyond the reach
-  constexpr int stepsBetweenLooks = 32;  // while there is something
-  ClearPlace& clear = vehicle.clear;
-  if (clear.distance > 0.0) {
-    const double moved = (state.massCentre - clear.centre).norm() +
-                         vehicle.query.radius() * (state.axes - clear.axes).norm();
-    if (moved + reach <= clear.distance) return true;
-    clear.distance = 0.0;
-  }
-  if (clear.stepsUntilLook > 0) {
-    --clear.stepsUntilLook;
-    return false;
-  }
-  const bool isClear = std::all_of(barriers.begin(), barriers.end(), [&](const auto& barrier) {
-    return barrier == nullptr || vehicle.query.isClear(*barrier, state, reach + distance);
-  });
-  if (!isClear) {
-    clear.stepsUntilLook = stepsBetweenLooks;
-    return false;
-  }
-  clear = {.centre = state.massCentre, .axes = state.axes, .distance = reach + distance};
-  return true;
+void Responder::Implementation::noticeGravity() {
+  dVector3 vector;
+  dWorldGetGravity(world, vector);
+  const double now = std::hypot(vector[0], vector[1], vector[2]);
+  if (now != gravity) forgetSurroundings();
+  gravity = now;
 }
 
 void Responder::Implementation::collectWalls(Vehicle& vehicle, const VehicleState& state,
                                              const PlanarMotion& motion, double h) {
-  const VehicleParameters parameters = withMassOf(vehicle.parameters, state);
-  const double reach = CollisionStep::reach(parameters, motion, longestPenetrationTime, h);
-  if (isFarFromWalls(vehicle, state, reach)) return;
-  firstIds.clear();
-  int nextId = 0;
-  for (const std::unique_ptr<Barrier>& barrier : barriers) {
-    firstIds.push_back(nextId);
-    if (barrier == nullptr) continue;
-    vehicle.query.append(*barrier, state, reach, nextId, segments);
-    nextId += barrier->wallCount();
-  }
+  const double reach = CollisionStep::reach(withMassOf(vehicle.parameters, state), motion,
+                                            longestPenetrationTime, h);
+  if (!options.skipping) vehicle.nearby.forget();
+  vehicle.nearby.collect(vehicle.query, barriers, state, reach, segments);
 }
 
 void Responder::Implementation::answerCuts(Vehicle& vehicle, const VehicleState& state,
@@ -271,11 +247,9 @@ void Responder::Implementation::answerCuts(Vehicle& vehicle, const VehicleState&
   pulse.shift({.linear = state.mass * outcome.shift.velocity,
                .angular = state.yawInertia * outcome.shift.yawRate});
   for (const StepImpact& each : outcome.impacts) {
-    // The last barrier that starts at or before the wall's number, and is still there.
-    std::size_t owner = firstIds.size() - 1;
-    while (firstIds[owner] > each.impact.wall || barriers[owner] == nullptr) --owner;
-    const Barrier& barrier = *barriers[owner];
-    const int wall = each.impact.wall - firstIds[owner];
+    const BarrierWall hit = vehicle.nearby.at(each.impact.wall);
+    const Barrier& barrier = *hit.barrier;
+    const int wall = hit.wall;
     const int number = barrier.settingsNumberOf(wall);
     const double contactTime = barrier.settings(number).contactTime;
     if (contactTime > 0.0) {
@@ -355,6 +329,9 @@ void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
   if (!near && !delivering) {
     memory.expectation = {};
     memory.passages.clear();
+    if (exact && options.skipping && upright && memory.contacts.empty()) {
+      vehicle.freeSpace.find(barriers, known, gravity, longestPenetrationTime, h);
+    }
     return;
   }
   if (!delivering) vehicle.memoryBefore = memory;
@@ -376,17 +353,22 @@ std::span<const ImpactEvent> Responder::step(double h) {
   Implementation& self = *implementation_;
   self.events.clear();
   self.issues = step_issue::none;
+  const bool isValid = std::isfinite(h) && h >= 0.0;
+  if (isValid && h > 0.0) self.noticeGravity();
+  self.active.clear();
   for (const std::unique_ptr<Vehicle>& vehicle : self.vehicles) {
-    if (vehicle != nullptr) vehicle->issues = step_issue::none;
+    // One that is skipped had nothing to say before.
+    if (vehicle == nullptr || vehicle->freeSpace.holds(h)) continue;
+    vehicle->issues = step_issue::none;
+    self.active.push_back(vehicle.get());
   }
-  if (!std::isfinite(h) || h < 0.0) {
+  if (!isValid) {
     self.issues = step_issue::invalid_step;
     return {};
   }
   if (h == 0.0) return {};
   self.reconsiderLastStep();
-  for (const std::unique_ptr<Vehicle>& vehicle : self.vehicles) {
-    if (vehicle == nullptr) continue;
+  for (Vehicle* vehicle : self.active) {
     self.stepVehicle(*vehicle, h);
     self.issues |= vehicle->issues;
   }

@@ -85,53 +85,59 @@ WallQuery::WallQuery(const VehicleParameters& parameters, const Band& band)
 
 WallQuery::~WallQuery() { dGeomDestroy(box_); }
 
-// The outline over the band, enlarged on every side.
-void WallQuery::placeBox(const VehicleState& state, double aside, double upAndDown) {
-  const Eigen::Vector3d middle(0.5 * (outline_.front - outline_.rear), 0.0, 0.5 * (low_ + high_));
+void WallQuery::placeBox(const VehicleState& state, const Margins& margins) {
+  const double front = outline_.front + margins.front;
+  const double rear = outline_.rear + margins.rear;
+  const Eigen::Vector3d middle(0.5 * (front - rear), 0.0, 0.5 * (low_ + high_));
   const Eigen::Vector3d place = state.massCentre + state.axes * middle;
   dMatrix3 rotation = {state.axes(0, 0), state.axes(0, 1), state.axes(0, 2), 0.0,
                        state.axes(1, 0), state.axes(1, 1), state.axes(1, 2), 0.0,
                        state.axes(2, 0), state.axes(2, 1), state.axes(2, 2), 0.0};
-  dGeomBoxSetLengths(box_, outline_.front + outline_.rear + 2.0 * aside,
-                     2.0 * outline_.halfWidth + 2.0 * aside, high_ - low_ + 2.0 * upAndDown);
+  dGeomBoxSetLengths(box_, front + rear, 2.0 * (outline_.halfWidth + margins.side),
+                     high_ - low_ + 2.0 * margins.height);
   dGeomSetPosition(box_, place.x(), place.y(), place.z());
   dGeomSetRotation(box_, rotation);
 }
 
-bool WallQuery::isClear(const Barrier& barrier, const VehicleState& state, double distance) {
-  if (const PrimitiveWall* primitive = barrier.primitive()) {
-    return !primitive->cut(state, low_ - distance, high_ + distance, radius_ + distance);
-  }
-  const BarrierMesh& mesh = *barrier.mesh();
-  if (!mesh.reaches(state.massCentre, radius_ + distance)) return true;
-  placeBox(state, distance + mesh.margin(), distance + mesh.margin());
+const std::vector<int>& WallQuery::list(const BarrierMesh& mesh, const VehicleState& state,
+                                        const Margins& margins) {
+  const double more = mesh.margin();
+  placeBox(state, {.front = margins.front + more,
+                   .rear = margins.rear + more,
+                   .side = margins.side + more,
+                   .height = margins.height + more});
   mesh.list(box_, near_);
-  return near_.empty();
+  std::sort(near_.begin(), near_.end());
+  return near_;
 }
 
-void WallQuery::append(const Barrier& barrier, const VehicleState& state, double reach, int firstId,
-                       std::vector<WallSegment>& segments) {
-  const auto add = [&](std::optional<WallSegment> segment, int wall) {
-    if (!segment) return;
-    segment->id = firstId + wall;
-    segment->group = barrier.id().value;
-    segment->settings = &barrier.settings(barrier.settingsNumberOf(wall));
-    segments.push_back(*segment);
-  };
+std::optional<WallSegment> WallQuery::cut(const Barrier& barrier, int wall,
+                                          const VehicleState& state, double reach) const {
+  std::optional<WallSegment> segment;
   if (const PrimitiveWall* primitive = barrier.primitive()) {
-    add(primitive->cut(state, low_, high_, radius_ + reach), 0);
-    return;
-  }
-  const BarrierMesh& mesh = *barrier.mesh();
-  if (!mesh.reaches(state.massCentre, radius_ + reach)) return;
-  placeBox(state, reach + mesh.margin(), mesh.margin());
-  mesh.list(box_, near_);
-  for (const int wall : near_) {
-    std::optional<WallSegment> segment =
-        cutWall(mesh.walls()[static_cast<std::size_t>(wall)], state, low_, high_);
+    segment = primitive->cut(state, low_, high_, radius_ + reach);
+  } else {
+    const BarrierMesh& mesh = *barrier.mesh();
+    segment = cutWall(mesh.walls()[static_cast<std::size_t>(wall)], state, low_, high_);
     if (segment) segment->solid = mesh.isSolid();
-    add(segment, wall);
   }
+  if (!segment || !isNear(*segment, reach)) return std::nullopt;
+  segment->group = barrier.id().value;
+  segment->settings = &barrier.settings(barrier.settingsNumberOf(wall));
+  return segment;
+}
+
+// Whether a segment meets the outline enlarged on every side.
+bool WallQuery::isNear(const WallSegment& wall, double reach) const {
+  const double more = reach + wall.radius;
+  const Vector2 middle(0.5 * (outline_.front - outline_.rear), 0.0);
+  const Vector2 half(0.5 * (outline_.front + outline_.rear) + more, outline_.halfWidth + more);
+  const Vector2 centre = 0.5 * (wall.start + wall.end) - middle;
+  const Vector2 arm = 0.5 * (wall.end - wall.start);
+  if ((centre.cwiseAbs() - arm.cwiseAbs() - half).maxCoeff() > 0.0) return false;
+  // Along the segment's normal.
+  return std::abs(cross(arm, centre)) <=
+         half.x() * std::abs(arm.y()) + half.y() * std::abs(arm.x());
 }
 
 std::optional<Impact> WallQuery::meanOfContacts(const BarrierMesh& mesh,
@@ -139,7 +145,7 @@ std::optional<Impact> WallQuery::meanOfContacts(const BarrierMesh& mesh,
   if (!mesh.reaches(state.massCentre, radius_)) return std::nullopt;
   constexpr int capacity = 64;
   std::array<dContactGeom, capacity> contacts;
-  placeBox(state, 0.0, 0.0);
+  placeBox(state, {});
   const int count = mesh.contacts(box_, contacts.data(), capacity);
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();

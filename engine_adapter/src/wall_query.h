@@ -24,19 +24,31 @@ class WallQuery {
   WallQuery(WallQuery&&) = delete;
   WallQuery& operator=(WallQuery&&) = delete;
 
-  /// Appends the pieces of the barrier's walls at the outline enlarged by `reach` on every side, m,
-  /// cut to the band and laid into the yaw plane. A segment's id is `firstId` plus the wall's
-  /// number in the barrier, its group the barrier's id.
-  void append(const Barrier& barrier, const VehicleState& state, double reach, int firstId,
-              std::vector<WallSegment>& segments);
+  /// How far a box around the outline, over the band, goes beyond it on its sides, m.
+  struct Margins {
+    double front = 0.0;
+    double rear = 0.0;
+    double side = 0.0;
+    double height = 0.0;
+  };
 
-  /// Whether no triangle of the barrier comes near the outline, over the band, enlarged by
-  /// `distance` in all directions, m. False if in doubt.
-  bool isClear(const Barrier& barrier, const VehicleState& state, double distance);
+  /// The numbers of those of the mesh's walls that ODE's collider finds in that box, in order;
+  /// valid until the next call.
+  const std::vector<int>& list(const BarrierMesh& mesh, const VehicleState& state,
+                               const Margins& margins);
+
+  /// The part of a barrier's wall that is in the outline enlarged by `reach` on every side, m, cut
+  /// to the band and laid into the yaw plane: the whole piece if any of it is. Nothing if none is.
+  /// The segment has no id yet; its group is the barrier's id.
+  [[nodiscard]] std::optional<WallSegment> cut(const Barrier& barrier, int wall,
+                                               const VehicleState& state, double reach) const;
 
   [[nodiscard]] const Outline& outline() const { return outline_; }
   /// Of a sphere around the mass centre that holds the outline over the band, m.
   [[nodiscard]] double radius() const { return radius_; }
+
+  /// How far a wall that is no flatter than 45° goes beyond its line within the band, m.
+  [[nodiscard]] double lean() const { return high_ - low_; }
 
   /// The impact that ODE's own contacts make of the situation: their depth-weighted mean.
   std::optional<Impact> meanOfContacts(const BarrierMesh& mesh, const VehicleState& state);
@@ -53,7 +65,8 @@ class WallQuery {
                                double lowestTop) const;
 
  private:
-  void placeBox(const VehicleState& state, double aside, double upAndDown);
+  [[nodiscard]] bool isNear(const WallSegment& wall, double reach) const;
+  void placeBox(const VehicleState& state, const Margins& margins);
 
   Outline outline_;
   double low_;  // the band in the vehicle's frame

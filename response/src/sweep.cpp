@@ -21,7 +21,9 @@ constexpr int maxLooks = 200;
 struct Gap {
   double distance = 0.0;
   double rate = 0.0;
-  bool counts = false;  // whether the points are really opposite each other
+  double aside = 0.0;  // how far the points are from being opposite each other; ≤ 0: they are
+
+  [[nodiscard]] bool counts() const { return aside <= 0.0; }
 };
 
 // What free flight does to the outline: place and turn at a time.
@@ -57,6 +59,13 @@ struct Flight {
   Pose first;  // at `from`
 };
 
+// How long it takes at least to go a distance at a rate, m/s, that changes no faster than `bend`.
+double leastTime(double distance, double rate, double bend) {
+  const double root = std::sqrt(rate * rate + 2.0 * bend * distance);
+  if (rate > 0.0) return 2.0 * distance / (root + rate);
+  return bend > 0.0 ? (root - rate) / bend : never;
+}
+
 // The first time at which a gap closes. `speed` bounds its rate, `bend` the rate's own rate, so
 // that nothing between two looks can be missed.
 template <typename GapOf>
@@ -69,15 +78,14 @@ double firstClosed(const Flight& flight, const GapOf& gapOf, double speed, doubl
   if (gap.distance > speed * (until - from)) return never;
   double time = from;
   for (int look = 0; look < maxLooks; ++look) {
-    double wait = 0.0;
+    // Before they touch they have to be opposite each other, and neither apart nor in each other.
+    double wait = std::max(gap.aside, 0.0) / speed;
     if (gap.distance > closed) {
-      // As long as it takes at least to close it.
-      const double root = std::sqrt(gap.rate * gap.rate + 2.0 * bend * gap.distance);
-      wait = gap.rate < 0.0 ? 2.0 * gap.distance / (root - gap.rate)
-                            : (bend > 0.0 ? (root + gap.rate) / bend : never);
-    } else if (!gap.counts || gap.distance < -touchTolerance) {
-      // As long as it takes at least to open it.
-      wait = std::max((closed - gap.distance) / speed, shortest);
+      wait = std::max(wait, leastTime(gap.distance, -gap.rate, bend));
+    } else if (gap.distance < -touchTolerance) {
+      wait = std::max({wait, leastTime(closed - gap.distance, gap.rate, bend), shortest});
+    } else if (!gap.counts()) {
+      wait = std::max(wait, shortest);
     } else if (gap.rate < -restTolerance) {
       // The last look came short by rounding's worth.
       return std::clamp(time - gap.distance / gap.rate, from, until);
@@ -90,7 +98,7 @@ double firstClosed(const Flight& flight, const GapOf& gapOf, double speed, doubl
     if (!(next <= until)) return never;
     if (next == time) {
       // Closer than the next number: this is the touch.
-      if (!gap.counts || gap.rate >= -restTolerance) return never;
+      if (!gap.counts() || gap.rate >= -restTolerance) return never;
       return time;
     }
     time = next;
@@ -116,7 +124,7 @@ double cornerOnFace(const Flight& flight, const Vector2& corner, const WallSegme
     const double along = tangent.dot(place);
     return Gap{.distance = normal.dot(place) - offset,
                .rate = normal.dot(pose.velocity + pose.rate * turnedLeft(arm)),
-               .counts = low <= along && along <= high};
+               .aside = std::max(low - along, along - high)};
   };
   const double radius = corner.norm();
   const double yawRate = std::abs(flight.motion.yawRate);
@@ -128,21 +136,27 @@ double cornerOnFace(const Flight& flight, const Vector2& corner, const WallSegme
 double pointOnSide(const Flight& flight, const Vector2& point, const WallSegment& wall,
                    const Vector2& out, double reach, double low, double high, double until) {
   const Vector2 along = turnedLeft(out);
-  const auto gapOf = [&](const Flight::Pose& pose) {
-    const Vector2 local = pose.turnedBack(point - pose.centre);
-    const Vector2 rate = -pose.turnedBack(pose.velocity) - pose.rate * turnedLeft(local);
-    const double place = along.dot(local);
-    return Gap{.distance = out.dot(local) - reach - wall.radius,
-               .rate = out.dot(rate),
-               .counts = low <= place && place <= high &&
-                         !(wall.solid && pose.turned(out).dot(wall.normal) > 0.0)};
-  };
   const double speed = flight.motion.velocity.norm();
   const double yawRate = std::abs(flight.motion.yawRate);
   const double farthest = (point - flight.motion.position).norm() +
                           speed * std::max(std::abs(flight.from), std::abs(until));
-  return firstClosed(flight, gapOf, speed + yawRate * farthest,
-                     2.0 * yawRate * speed + yawRate * yawRate * farthest, until);
+  const double fastest = speed + yawRate * farthest;
+  const auto gapOf = [&](const Flight::Pose& pose) {
+    const Vector2 local = pose.turnedBack(point - pose.centre);
+    const Vector2 rate = -pose.turnedBack(pose.velocity) - pose.rate * turnedLeft(local);
+    const double place = along.dot(local);
+    Gap gap{.distance = out.dot(local) - reach - wall.radius,
+            .rate = out.dot(rate),
+            .aside = std::max(low - place, place - high)};
+    if (wall.solid) {
+      // A side that faces the inside has to turn first.
+      const double inwards = pose.turned(out).dot(wall.normal);
+      if (inwards > 0.0) gap.aside = std::max(gap.aside, fastest * inwards / yawRate);
+    }
+    return gap;
+  };
+  return firstClosed(flight, gapOf, fastest, 2.0 * yawRate * speed + yawRate * yawRate * farthest,
+                     until);
 }
 
 // A corner of the outline and the round of a post.
@@ -155,7 +169,7 @@ double cornerOnPost(const Flight& flight, const Vector2& corner, const WallSegme
     const Vector2 velocity = pose.velocity + pose.rate * turnedLeft(arm);
     return Gap{.distance = distance - post.radius,
                .rate = distance > 0.0 ? away.dot(velocity) / distance : 0.0,
-               .counts = true};
+               .aside = 0.0};
   };
   const double radius = corner.norm();
   const double yawRate = std::abs(flight.motion.yawRate);

@@ -18,7 +18,9 @@ double distance(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen:
   return (point - a - way * edge).norm();
 }
 
-double distance(const Wall& wall, const Eigen::Vector2d& point) {
+}  // namespace
+
+double clearance(const Wall& wall, const Eigen::Vector2d& point) {
   const Eigen::Vector2d a = wall.corners[0].head<2>();
   const Eigen::Vector2d b = wall.corners[1].head<2>();
   const Eigen::Vector2d c = wall.corners[2].head<2>();
@@ -29,11 +31,9 @@ double distance(const Wall& wall, const Eigen::Vector2d& point) {
   return std::min({distance(a, b, point), distance(b, c, point), distance(c, a, point)});
 }
 
-}  // namespace
-
 double clearance(const std::vector<Wall>& walls, const Eigen::Vector2d& point) {
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Wall& wall : walls) nearest = std::min(nearest, distance(wall, point));
+  for (const Wall& wall : walls) nearest = std::min(nearest, clearance(wall, point));
   return nearest;
 }
 

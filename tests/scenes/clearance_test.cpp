@@ -39,7 +39,7 @@ TEST(Clearance, IsZeroUnderAWallThatLeans) {
 }
 
 TEST(Clearance, IsInfiniteWithoutWalls) {
-  EXPECT_EQ(clearance({}, {0, 0}), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(clearance(std::vector<Wall>{}, {0, 0}), std::numeric_limits<double>::infinity());
 }
 
 TEST(Clearance, OfTheTestRailsStart) {

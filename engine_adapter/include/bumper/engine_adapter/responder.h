@@ -33,6 +33,9 @@ struct ResponderOptions {
   ResponseSettings response{};
   ContactSource contactSource = ContactSource::exact_cut;
   Delivery delivery = Delivery::force_pulse;
+  /// Whether what a vehicle cannot reach is left out of a step, and what was near it in one step is
+  /// remembered for the next. Off: every step asks for everything anew. The result is the same.
+  bool skipping = true;
 };
 
 /// What a step could not do as usual; a set of bits.

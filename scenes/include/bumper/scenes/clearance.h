@@ -12,4 +12,7 @@ namespace bumper {
 /// pictures and plots, not for a simulation step.
 double clearance(const std::vector<Wall>& walls, const Eigen::Vector2d& point);
 
+/// The same of one wall.
+double clearance(const Wall& wall, const Eigen::Vector2d& point);
+
 }  // namespace bumper

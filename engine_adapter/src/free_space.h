@@ -1,0 +1,87 @@
+#pragma once
+
+#include <ode/ode.h>
+
+#include <memory>
+#include <vector>
+
+#include "barrier.h"
+#include "bumper/response/contact_point.h"
+#include "vehicle_bodies.h"
+
+namespace bumper {
+
+/// Room around a vehicle without any wall, and the motion for which it cannot reach one within a
+/// step: as long as the vehicle is in that room and no faster than that, its step is skipped.
+///
+/// The room is a strip along the vehicle's forward axis, in the horizontal plane. It is found with
+/// the barriers' clearance maps, and holds whatever the walls' heights.
+class FreeSpace {
+ public:
+  FreeSpace(const VehicleBodies& bodies, const VehicleParameters& parameters, const Band& band,
+            double minUprightness);
+
+  /// Whether the vehicle is certainly out of every wall's reach in the coming step of `h` seconds.
+  /// A comparison of what its bodies are and do now; false if in doubt.
+  [[nodiscard]] bool holds(double h);
+
+  /// Looks for such room around a vehicle that no wall is near to. `gravity` is the world's, m/s²,
+  /// `penetrationTime` the longest of the barriers' settings.
+  void find(const std::vector<std::unique_ptr<Barrier>>& barriers, const VehicleState& state,
+            double gravity, double penetrationTime, double h);
+
+  /// Nothing is known: barriers have changed.
+  void forget() {
+    step_ = 0.0;
+    stepsUntilLook_ = 0;
+  }
+
+ private:
+  // What ODE keeps of a body. These addresses do not change while the body lives.
+  struct Body {
+    const dReal* position;
+    const dReal* velocity;
+    const dReal* force;
+    const dReal* torque;
+    double x, y, z;  // its place when the room was found
+  };
+
+  struct Strip {
+    double ahead = 0.0;   // m, by which the vehicle can move on
+    double behind = 0.0;  // m, by which it can move back
+    double aside = 0.0;   // m, by which it can move to either side
+  };
+
+  void allowMotion(const VehicleState& state);
+  [[nodiscard]] double reachOfAllowed(const VehicleState& state, double gravity,
+                                      double penetrationTime, double h) const;
+  [[nodiscard]] bool fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
+                          const VehicleState& state, double reach, double spacing);
+
+  VehicleParameters parameters_;
+  Outline outline_;
+  double low_;  // the band in the vehicle's frame
+  double high_;
+  double minUprightness_;
+
+  std::vector<Body> bodies_;
+  const dReal* rotation_;
+  const dReal* turning_;
+
+  double step_ = 0.0;  // the longest step for which it holds, s; 0: nothing is known
+  int stepsLeft_ = 0;
+  int stepsUntilLook_ = 0;
+  Strip strip_;
+  double forwardX_ = 0.0;  // the strip's direction
+  double forwardY_ = 0.0;
+  Eigen::Vector3d forward_ = Eigen::Vector3d::Zero();  // the vehicle's axes then
+  Eigen::Vector3d up_ = Eigen::Vector3d::Zero();
+
+  // What is allowed, as squares.
+  double speed2_ = 0.0;    // of each body
+  double turning2_ = 0.0;  // of the chassis
+  double force2_ = 0.0;    // of all bodies together
+  double torque2_ = 0.0;
+};
+
+}  // namespace bumper

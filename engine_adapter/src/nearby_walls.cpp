@@ -1,0 +1,87 @@
+#include "nearby_walls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bumper {
+
+namespace {
+
+// How far the region goes beyond the reach, m: on all sides, and ahead by what the vehicle passes
+// in this time, s, but no further than that.
+constexpr double allAround = 0.5;
+constexpr double timeAhead = 0.2;
+constexpr double mostAhead = 6.0;
+
+// What is left of a wall that leans lies in the rectangle around its part in the band.
+constexpr double aroundCorner = 1.4143;
+
+}  // namespace
+
+bool NearbyWalls::covers(const WallQuery& query, const VehicleState& state, double reach) const {
+  if (!isKnown_) return false;
+  const Eigen::Vector3d moved = axes_.transpose() * (state.massCentre - centre_);
+  const double turned = query.radius() * (state.axes - axes_).norm();
+  const double needed = reach + query.lean() + turned;
+  return moved.x() + needed <= margins_.front && -moved.x() + needed <= margins_.rear &&
+         std::abs(moved.y()) + needed <= margins_.side &&
+         std::abs(moved.z()) + turned <= margins_.height;
+}
+
+void NearbyWalls::list(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
+                       const VehicleState& state, double reach) {
+  centre_ = state.massCentre;
+  axes_ = state.axes;
+  const double way =
+      std::clamp(timeAhead * state.axes.col(0).dot(state.velocity), -mostAhead, mostAhead);
+  const double needed = reach + query.lean() + allAround;
+  margins_ = {.front = needed + std::max(way, 0.0),
+              .rear = needed + std::max(-way, 0.0),
+              .side = needed,
+              .height = allAround};
+  const double radius =
+      query.radius() + std::max(margins_.front, margins_.rear) + margins_.side + margins_.height;
+  walls_.clear();
+  for (const std::unique_ptr<Barrier>& barrier : barriers) {
+    if (barrier == nullptr || barrier->clearanceAtLeast(centre_, radius) > radius) continue;
+    if (barrier->mesh() == nullptr) {
+      walls_.push_back({.of = {.barrier = barrier.get(), .wall = 0},
+                        .centre = centre_,
+                        .radius = std::numeric_limits<double>::infinity()});
+      continue;
+    }
+    for (const int number : query.list(*barrier->mesh(), state, margins_)) {
+      const auto& corners = barrier->mesh()->walls()[static_cast<std::size_t>(number)].corners;
+      const Eigen::Vector3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+      const Eigen::Vector3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
+      walls_.push_back({.of = {.barrier = barrier.get(), .wall = number},
+                        .centre = 0.5 * (low + high),
+                        .radius = aroundCorner * 0.5 * (high - low).norm()});
+    }
+  }
+  isKnown_ = true;
+}
+
+void NearbyWalls::collect(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
+                          const VehicleState& state, double reach,
+                          std::vector<WallSegment>& segments) {
+  if (!covers(query, state, reach)) list(query, barriers, state, reach);
+  const Outline& outline = query.outline();
+  const Eigen::Vector3d forward = state.axes.col(0);
+  const Eigen::Vector3d left = state.axes.col(1);
+  for (std::size_t i = 0; i < walls_.size(); ++i) {
+    const Near& near = walls_[i];
+    const Eigen::Vector3d away = near.centre - state.massCentre;
+    const double x = forward.dot(away);
+    const double most = near.radius + reach;
+    if (x > outline.front + most || -x > outline.rear + most) continue;
+    if (std::abs(left.dot(away)) > outline.halfWidth + most) continue;
+    if (auto segment = query.cut(*near.of.barrier, near.of.wall, state, reach)) {
+      segment->id = static_cast<int>(i);
+      segments.push_back(*segment);
+    }
+  }
+}
+
+}  // namespace bumper

@@ -1,0 +1,160 @@
+#include "bumper/scenes/clearance_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "bumper/scenes/clearance.h"
+
+namespace bumper {
+
+namespace {
+
+constexpr double smallestCell = 1.0;  // m
+constexpr std::size_t fewestCells = 65536;
+constexpr std::size_t cellsPerWall = 32;
+
+// Distances are kept in parts of a cell.
+constexpr int partsOfCell = 8;
+constexpr int most = 255;
+
+// So many cells around a wall, distances are exact; further away they are counted in cells.
+constexpr int exactCells = 6;
+
+using Corners = std::array<std::array<double, 2>, 3>;
+
+struct Span {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  void include(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+// From which to which x a triangle reaches between two values of y.
+Span spanBetween(const Corners& corners, double low, double high) {
+  Span span;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& [ax, ay] = corners[k];
+    const auto& [bx, by] = corners[(k + 1) % 3];
+    if (low <= ay && ay <= high) span.include(ax);
+    for (const double y : {low, high}) {
+      if ((ay < y) != (by < y)) span.include(ax + (y - ay) / (by - ay) * (bx - ax));
+    }
+  }
+  return span;
+}
+
+std::size_t cellAt(double place, std::size_t count) {
+  return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(count - 1)));
+}
+
+// How many columns or rows, whichever are more, each cell is away from the nearest 0.
+void spread(std::vector<std::uint8_t>& cells, std::size_t columns, std::size_t rows) {
+  const auto pass = [&](std::size_t row, std::size_t column, bool up) {
+    std::uint8_t& cell = cells[row * columns + column];
+    const auto lower = [&cell](std::uint8_t neighbour) {
+      if (neighbour < most) cell = std::min(cell, static_cast<std::uint8_t>(neighbour + 1));
+    };
+    if (up ? column > 0 : column + 1 < columns) lower(*(&cell + (up ? -1 : 1)));
+    if (up ? row == 0 : row + 1 == rows) return;
+    const std::size_t other = up ? row - 1 : row + 1;
+    for (std::size_t c = column - std::min<std::size_t>(column, 1);
+         c <= std::min(column + 1, columns - 1); ++c) {
+      lower(cells[other * columns + c]);
+    }
+  };
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t column = 0; column < columns; ++column) pass(row, column, true);
+  }
+  for (std::size_t row = rows; row-- > 0;) {
+    for (std::size_t column = columns; column-- > 0;) pass(row, column, false);
+  }
+}
+
+}  // namespace
+
+ClearanceMap::ClearanceMap(const std::vector<Wall>& walls) {
+  if (walls.empty()) return;
+  Span x;
+  Span y;
+  for (const Wall& wall : walls) {
+    for (const Eigen::Vector3d& corner : wall.corners) {
+      x.include(corner.x());
+      y.include(corner.y());
+    }
+  }
+  lowX_ = x.low;
+  lowY_ = y.low;
+  highX_ = x.high;
+  highY_ = y.high;
+  const double width = x.high - x.low;
+  const double depth = y.high - y.low;
+  const auto cells = static_cast<double>(std::max(fewestCells, cellsPerWall * walls.size()));
+  // Of a long and narrow field a row of cells may be all there is.
+  cell_ = std::max({smallestCell, std::sqrt(width * depth / cells), (width + depth) / cells});
+  columns_ = static_cast<std::size_t>(width / cell_) + 1;
+  rows_ = static_cast<std::size_t>(depth / cell_) + 1;
+
+  distances_.assign(columns_ * rows_, most);
+  std::vector<std::uint8_t> away(distances_.size(), most);
+  for (const Wall& wall : walls) keepDistances(wall, away);
+  spread(away, columns_, rows_);
+  for (std::size_t i = 0; i < away.size(); ++i) {
+    // Within exactCells of a wall's cell all cells have their distance; from the middle of a cell
+    // to the edge of another it is half a cell less.
+    if (away[i] == 0) continue;
+    const int parts = partsOfCell * (away[i] + exactCells) - partsOfCell / 2;
+    distances_[i] = static_cast<std::uint8_t>(std::min(parts, most));
+  }
+}
+
+// From the middles of all cells around a wall; these are then 0 cells away from it.
+void ClearanceMap::keepDistances(const Wall& wall, std::vector<std::uint8_t>& away) {
+  Corners corners;
+  Span height;
+  for (std::size_t k = 0; k < 3; ++k) {
+    corners[k] = {(wall.corners[k].x() - lowX_) / cell_, (wall.corners[k].y() - lowY_) / cell_};
+    height.include(corners[k][1]);
+  }
+  // What lies at a cell's edge belongs to the neighbour too.
+  constexpr double around = exactCells + 1e-6;
+  for (std::size_t row = cellAt(height.low - around, rows_);
+       row <= cellAt(height.high + around, rows_); ++row) {
+    const auto low = static_cast<double>(row);
+    const Span span = spanBetween(corners, low - around, low + 1.0 + around);
+    if (span.low > span.high) continue;
+    for (std::size_t column = cellAt(span.low - around, columns_);
+         column <= cellAt(span.high + around, columns_); ++column) {
+      const std::size_t cell = row * columns_ + column;
+      const Eigen::Vector2d middle(lowX_ + (static_cast<double>(column) + 0.5) * cell_,
+                                   lowY_ + (low + 0.5) * cell_);
+      const double distance = clearance(wall, middle) / cell_ * partsOfCell;
+      const auto parts = static_cast<std::uint8_t>(std::min<double>(distance, most));
+      distances_[cell] = std::min(distances_[cell], parts);
+      away[cell] = 0;
+    }
+  }
+}
+
+double ClearanceMap::atLeast(double x, double y) const {
+  if (distances_.empty()) return std::numeric_limits<double>::infinity();
+  const double outsideX = std::max({lowX_ - x, x - highX_, 0.0});
+  const double outsideY = std::max({lowY_ - y, y - highY_, 0.0});
+  if (outsideX > 0.0 || outsideY > 0.0) return std::hypot(outsideX, outsideY);
+  if (!std::isfinite(x) || !std::isfinite(y)) return 0.0;
+  const double columns = (x - lowX_) / cell_;
+  const double rows = (y - lowY_) / cell_;
+  const std::size_t column = cellAt(columns, columns_);
+  const std::size_t row = cellAt(rows, rows_);
+  const double asideX = std::abs(columns - static_cast<double>(column) - 0.5);
+  const double asideY = std::abs(rows - static_cast<double>(row) - 0.5);
+  // No less than the way to the cell's middle.
+  const double aside = std::max(asideX, asideY) + 0.41422 * std::min(asideX, asideY);
+  const double parts = distances_[row * columns_ + column];
+  return std::max(parts / partsOfCell - aside - 1e-9, 0.0) * cell_;
+}
+
+}  // namespace bumper
