@@ -183,10 +183,10 @@ bool FreeSpace::fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
   return true;
 }
 
-void FreeSpace::find(const std::vector<std::unique_ptr<Barrier>>& barriers,
+bool FreeSpace::find(const std::vector<std::unique_ptr<Barrier>>& barriers,
                      const VehicleState& state, double gravity, double penetrationTime, double h) {
   step_ = 0.0;
-  if (--stepsUntilLook_ > 0) return;
+  if (--stepsUntilLook_ > 0) return false;
   const Eigen::Vector2d velocity = state.velocity.head<2>();
   const double speed = velocity.norm();
   // Along the way it goes; the heading of one at rest.
@@ -209,9 +209,10 @@ void FreeSpace::find(const std::vector<std::unique_ptr<Barrier>>& barriers,
       body.y = body.position[1];
       body.z = body.position[2];
     }
-    return;
+    return true;
   }
   stepsUntilLook_ = stepsAfterFailure;
+  return false;
 }
 
 }  // namespace bumper

@@ -25,9 +25,9 @@ class FreeSpace {
   /// A comparison of what its bodies are and do now; false if in doubt.
   [[nodiscard]] bool holds(double h);
 
-  /// Looks for such room around a vehicle that no wall is near to. `gravity` is the world's, m/s²,
+  /// Looks for such room, and returns whether there is. `gravity` is the world's, m/s²,
   /// `penetrationTime` the longest of the barriers' settings.
-  void find(const std::vector<std::unique_ptr<Barrier>>& barriers, const VehicleState& state,
+  bool find(const std::vector<std::unique_ptr<Barrier>>& barriers, const VehicleState& state,
             double gravity, double penetrationTime, double h);
 
   /// Nothing is known: barriers have changed.

@@ -48,19 +48,39 @@ void NearbyWalls::list(WallQuery& query, const std::vector<std::unique_ptr<Barri
     if (barrier->mesh() == nullptr) {
       walls_.push_back({.of = {.barrier = barrier.get(), .wall = 0},
                         .centre = centre_,
-                        .radius = std::numeric_limits<double>::infinity()});
+                        .radius = std::numeric_limits<double>::infinity(),
+                        .normal = Eigen::Vector3d::Zero(),
+                        .offset = 0.0});
       continue;
     }
     for (const int number : query.list(*barrier->mesh(), state, margins_)) {
-      const auto& corners = barrier->mesh()->walls()[static_cast<std::size_t>(number)].corners;
+      const Wall& wall = barrier->mesh()->walls()[static_cast<std::size_t>(number)];
+      const auto& corners = wall.corners;
       const Eigen::Vector3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
       const Eigen::Vector3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
       walls_.push_back({.of = {.barrier = barrier.get(), .wall = number},
                         .centre = 0.5 * (low + high),
-                        .radius = aroundCorner * 0.5 * (high - low).norm()});
+                        .radius = aroundCorner * 0.5 * (high - low).norm(),
+                        .normal = wall.normal,
+                        .offset = wall.normal.dot(corners[0])});
     }
   }
   isKnown_ = true;
+}
+
+// Whether all of the outline's reach, over the band, lies on one side of the wall's plane.
+bool NearbyWalls::isBeyondPlane(const WallQuery& query, const VehicleState& state, const Near& near,
+                                double reach) {
+  const Outline& outline = query.outline();
+  const Eigen::Vector3d normal = state.axes.transpose() * near.normal;
+  const Eigen::Vector3d middle = query.middle();
+  const double across =
+      std::abs(near.offset - near.normal.dot(state.massCentre) - normal.dot(middle));
+  // Twice the band's height: what leans stands out from its line.
+  const double half = std::abs(normal.x()) * (0.5 * (outline.front + outline.rear) + reach) +
+                      std::abs(normal.y()) * (outline.halfWidth + reach) +
+                      std::abs(normal.z()) * 2.0 * query.lean();
+  return across > half + 1e-9;
 }
 
 void NearbyWalls::collect(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
@@ -77,6 +97,7 @@ void NearbyWalls::collect(WallQuery& query, const std::vector<std::unique_ptr<Ba
     const double most = near.radius + reach;
     if (x > outline.front + most || -x > outline.rear + most) continue;
     if (std::abs(left.dot(away)) > outline.halfWidth + most) continue;
+    if (isBeyondPlane(query, state, near, reach)) continue;
     if (auto segment = query.cut(*near.of.barrier, near.of.wall, state, reach)) {
       segment->id = static_cast<int>(i);
       segments.push_back(*segment);

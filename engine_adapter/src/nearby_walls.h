@@ -39,9 +39,13 @@ class NearbyWalls {
     BarrierWall of;
     Eigen::Vector3d centre;  // of a ball around the wall
     double radius;
+    Eigen::Vector3d normal;  // of its plane; zero if it has none
+    double offset;           // of the plane along the normal
   };
 
   [[nodiscard]] bool covers(const WallQuery& query, const VehicleState& state, double reach) const;
+  [[nodiscard]] static bool isBeyondPlane(const WallQuery& query, const VehicleState& state,
+                                          const Near& near, double reach);
   void list(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
             const VehicleState& state, double reach);
 

@@ -72,8 +72,8 @@ struct Responder::Implementation {
   unsigned issues = step_issue::none;
   std::vector<ImpactEvent> events;
 
-  double gravity = 0.0;                 // the world's, m/s²
-  double longestPenetrationTime = 0.0;  // of all barriers there ever were, s
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  // the world's
+  double longestPenetrationTime = 0.0;                // of all barriers there ever were, s
 
   // Scratch memory, kept from step to step.
   CollisionStep collision;

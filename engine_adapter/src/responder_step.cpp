@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ode_vectors.h"
 #include "pulse_delivery.h"
 #include "responder_implementation.h"
 #include "sustained_contacts.h"
@@ -223,11 +224,11 @@ void Responder::Implementation::forgetSurroundings() {
 }
 
 void Responder::Implementation::noticeGravity() {
-  dVector3 vector;
-  dWorldGetGravity(world, vector);
-  const double now = std::hypot(vector[0], vector[1], vector[2]);
-  if (now != gravity) forgetSurroundings();
-  gravity = now;
+  dVector3 now;
+  dWorldGetGravity(world, now);
+  if (toVector(now) == gravity) return;
+  gravity = toVector(now);
+  forgetSurroundings();
 }
 
 void Responder::Implementation::collectWalls(Vehicle& vehicle, const VehicleState& state,
@@ -317,6 +318,12 @@ void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
   VehicleState state = known;
   PlanarMotion motion;
   segments.clear();
+  const bool remembersWalls = delivering || memory.expectation.step > 0.0 ||
+                              !memory.contacts.empty() || !memory.passages.empty();
+  if (exact && upright && options.skipping && !remembersWalls &&
+      vehicle.freeSpace.find(barriers, known, gravity.norm(), longestPenetrationTime, h)) {
+    return;
+  }
   if (upright) {
     foresee(memory.expectation, state);
     motion = motionOf(state, memory.pulse, options.response.method, h);
@@ -329,9 +336,6 @@ void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
   if (!near && !delivering) {
     memory.expectation = {};
     memory.passages.clear();
-    if (exact && options.skipping && upright && memory.contacts.empty()) {
-      vehicle.freeSpace.find(barriers, known, gravity, longestPenetrationTime, h);
-    }
     return;
   }
   if (!delivering) vehicle.memoryBefore = memory;
@@ -367,7 +371,7 @@ std::span<const ImpactEvent> Responder::step(double h) {
     return {};
   }
   if (h == 0.0) return {};
-  self.reconsiderLastStep();
+  if (!self.active.empty()) self.reconsiderLastStep();
   for (Vehicle* vehicle : self.active) {
     self.stepVehicle(*vehicle, h);
     self.issues |= vehicle->issues;

@@ -56,8 +56,11 @@ VehicleState VehicleBodies::read() const {
 
   double moment = 0.0;
   for (dBodyID body : bodies_) {
+    dMass mass;
+    dBodyGetMass(body, &mass);
     const Eigen::Vector3d arm = toVector(dBodyGetPosition(body)) - state.massCentre;
-    state.yawInertia += up.dot(inertiaOf(body) * up) + massOf(body) * up.cross(arm).squaredNorm();
+    const Eigen::Vector3d axis = toMatrix(dBodyGetRotation(body)).transpose() * up;
+    state.yawInertia += axis.dot(toMatrix(mass.I) * axis) + mass.mass * up.cross(arm).squaredNorm();
     moment += up.dot(toVector(dBodyGetTorque(body)) + arm.cross(toVector(dBodyGetForce(body))));
   }
   state.yawAcceleration = moment / state.yawInertia;

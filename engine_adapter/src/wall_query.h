@@ -47,6 +47,10 @@ class WallQuery {
   /// Of a sphere around the mass centre that holds the outline over the band, m.
   [[nodiscard]] double radius() const { return radius_; }
 
+  /// Of the outline over the band, in the vehicle's frame, m.
+  [[nodiscard]] Eigen::Vector3d middle() const {
+    return {0.5 * (outline_.front - outline_.rear), 0.0, 0.5 * (low_ + high_)};
+  }
   /// How far a wall that is no flatter than 45° goes beyond its line within the band, m.
   [[nodiscard]] double lean() const { return high_ - low_; }
 

@@ -5,6 +5,7 @@
 namespace bumper {
 
 Vector2 rotated(const Vector2& v, double angle) {
+  if (angle == 0.0) return v;  // often, and dear otherwise
   const double c = std::cos(angle);
   const double s = std::sin(angle);
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};

@@ -178,6 +178,30 @@ double cornerOnPost(const Flight& flight, const Vector2& corner, const WallSegme
                      until);
 }
 
+// Where the outline can come at all, in its own frame at the start.
+struct Bounds {
+  Bounds(const Outline& outline, const Flight& flight, double radius, double time)
+      : middle(0.5 * (outline.front - outline.rear), 0.0),
+        half(0.5 * (outline.front + outline.rear), outline.halfWidth) {
+    const double farthest = std::hypot(std::max(outline.front, outline.rear), outline.halfWidth);
+    const double speed = flight.motion.velocity.norm() + std::abs(flight.motion.yawRate) * farthest;
+    half.array() += speed * time + radius + 2.0 * touchTolerance;
+  }
+
+  /// Whether no point between two others lies there.
+  [[nodiscard]] bool excludes(const Vector2& from, const Vector2& to) const {
+    const Vector2 centre = 0.5 * (from + to) - middle;
+    const Vector2 arm = 0.5 * (to - from);
+    if ((centre.cwiseAbs() - arm.cwiseAbs() - half).maxCoeff() > 0.0) return true;
+    // Across the line between them.
+    return std::abs(cross(arm, centre)) >
+           half.x() * std::abs(arm.y()) + half.y() * std::abs(arm.x());
+  }
+
+  Vector2 middle;
+  Vector2 half;
+};
+
 }  // namespace
 
 PlanarMotion advanced(PlanarMotion motion, double time) {
@@ -189,6 +213,11 @@ PlanarMotion advanced(PlanarMotion motion, double time) {
 double timeOfTouch(const Outline& outline, const PlanarMotion& motion, const WallSegment& wall,
                    const Overlap* touch, double from, double until) {
   const Flight flight(motion, from);
+  const Bounds bounds(outline, flight, wall.radius, until - from);
+  const Vector2 start = flight.first.turnedBack(wall.start - flight.first.centre);
+  const Vector2 end = flight.first.turnedBack(wall.end - flight.first.centre);
+  if (bounds.excludes(start, end)) return never;
+
   double first = until;
   bool found = false;
   const auto consider = [&](double time) {
@@ -228,13 +257,14 @@ double timeOfTouch(const Outline& outline, const PlanarMotion& motion, const Wal
       {{0.0, 1.0}, outline.halfWidth, -outline.front, outline.rear},
       {{0.0, -1.0}, outline.halfWidth, -outline.rear, outline.front},
   };
-  for (const Side& side : sides) {
-    consider(pointOnSide(flight, wall.start, wall, side.out, side.reach, side.low - touchTolerance,
-                         side.high + touchTolerance, first));
-    if (wall.isPost()) continue;
-    consider(pointOnSide(flight, wall.end, wall, side.out, side.reach, side.low - touchTolerance,
-                         side.high + touchTolerance, first));
-  }
+  const auto considerSides = [&](const Vector2& point) {
+    for (const Side& side : sides) {
+      consider(pointOnSide(flight, point, wall, side.out, side.reach, side.low - touchTolerance,
+                           side.high + touchTolerance, first));
+    }
+  };
+  if (!bounds.excludes(start, start)) considerSides(wall.start);
+  if (!wall.isPost() && !bounds.excludes(end, end)) considerSides(wall.end);
   if (!found) return never;
   return first;
 }
