@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <regex>
 #include <string>
 
 #include "bumper/response/error.h"
@@ -36,28 +35,11 @@ void validate(const WallSelection& selection) {
 // Room for rounding, so that at 0 what was built to be vertical is.
 double steepestGround(const WallSelection& selection) { return selection.maxNormalUp + 1e-9; }
 
-/// Which of the scene's meshes no vehicle hits.
-std::vector<bool> sceneryOf(const Scene& scene, const WallSelection& selection) {
-  std::vector<bool> scenery(scene.meshes.size(), false);
-  if (selection.scenery.empty()) return scenery;
-  try {
-    const std::regex pattern(selection.scenery);
-    for (std::size_t i = 0; i < scenery.size(); ++i) {
-      scenery[i] = std::regex_match(scene.meshes[i].name, pattern) ||
-                   std::regex_match(scene.meshes[i].material, pattern);
-    }
-  } catch (const std::regex_error& error) {
-    throw Error("WallSelection::scenery, \"" + selection.scenery +
-                "\", is no regular expression: " + error.what());
-  }
-  return scenery;
-}
-
 /// The triangles that stand steep enough, duplicates among them.
 std::vector<Wall> steepTriangles(const Scene& scene, const WallSelection& selection,
                                  WallReport& report) {
   const double limit = steepestGround(selection);
-  const std::vector<bool> scenery = sceneryOf(scene, selection);
+  const std::vector<bool> scenery = matchingMeshes(scene, selection.scenery);
   std::vector<Wall> steep;
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     const Scene::Triangle& triangle = scene.triangles[i];

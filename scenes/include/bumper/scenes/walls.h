@@ -38,8 +38,8 @@ struct WallSelection {
   /// what leans by less than 17° from the vertical, 1 keeps all.
   double maxNormalUp = 0.3;
 
-  /// Meshes that no vehicle hits, such as pictures of trees: a regular expression (ECMAScript) that
-  /// the whole name of the mesh or of its material matches; empty: none.
+  /// Meshes that no vehicle hits, such as pictures of trees: a pattern for matchingMeshes(); empty:
+  /// none. A trimesh of ODE's has no meshes.
   std::string scenery{};
 
   /// Drops walls that are there twice: with the same corners, or as the other two triangles of a
