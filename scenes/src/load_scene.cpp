@@ -4,7 +4,6 @@
 #include <limits>
 #include <new>
 #include <sstream>
-#include <unordered_set>
 #include <vector>
 
 #include "assimp_reader.h"
@@ -100,10 +99,9 @@ void dropDegenerate(Scene& scene, LoadReport& report) {
 }
 
 void dropDuplicates(Scene& scene, LoadReport& report) {
-  std::unordered_set<Corners, CornersHash> seen;
-  seen.reserve(scene.triangles.size());
+  CornersTable seen(scene.triangles.size());
   report.droppedDuplicate = std::erase_if(scene.triangles, [&](const Scene::Triangle& triangle) {
-    return !seen.insert(sorted(triangle.corners)).second;
+    return !seen.insert(sorted(triangle.corners));
   });
 }
 

@@ -4,15 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
-#include <unordered_map>
 
 #include "weld.h"
 
 namespace bumper {
 
 namespace {
-
-using WallOf = std::unordered_map<Corners, std::uint32_t, CornersHash>;
 
 void keepOnly(const std::vector<bool>& dropped, std::vector<Wall>& walls,
               std::vector<Corners>& corners) {
@@ -99,15 +96,13 @@ std::vector<Pair> planeQuads(const std::vector<Wall>& walls, const std::vector<C
 }  // namespace
 
 void dropRepeated(std::vector<Wall>& walls, std::vector<Corners>& corners, WallReport& report) {
-  WallOf wallOf;
-  wallOf.reserve(walls.size());
+  CornersTable table(walls.size());
   std::vector<bool> dropped(walls.size(), false);
-  std::uint32_t kept = 0;
   for (std::size_t i = 0; i < walls.size(); ++i) {
-    dropped[i] = !wallOf.emplace(sorted(corners[i]), kept).second;
-    if (!dropped[i]) ++kept;
+    dropped[i] = !table.insert(sorted(corners[i]));
+    report.droppedDuplicate += dropped[i] ? 1 : 0;
   }
-  report.droppedDuplicate += walls.size() - kept;
+  // From here on a wall's place is its number in the table.
   keepOnly(dropped, walls, corners);
 
   // A quad that is kept covers whatever else is made of its corners.
@@ -117,9 +112,9 @@ void dropRepeated(std::vector<Wall>& walls, std::vector<Corners>& corners, WallR
     const std::uint32_t r = corners[first.wall].at(first.opposite);
     const std::uint32_t s = corners[second.wall].at(second.opposite);
     for (const std::uint32_t end : {first.low, first.high}) {
-      const auto other = wallOf.find(sorted({r, s, end}));
-      if (other == wallOf.end() || dropped[other->second]) continue;
-      dropped[other->second] = true;
+      const std::uint32_t other = table.find(sorted({r, s, end}));
+      if (other == CornersTable::none || dropped[other]) continue;
+      dropped[other] = true;
       ++report.droppedRetriangulated;
     }
   }

@@ -23,7 +23,7 @@ class AllTracks : public ::testing::Test {
   void SetUp() override {
     if (files.empty()) {
       GTEST_SKIP() << "no track in " << BUMPER_TRACKS_DIR
-                   << ": examples/fetch_tracks.sh road oval dirt gets them";
+                   << ": examples/fetch_tracks.sh --all gets them";
     }
   }
   std::vector<std::filesystem::path> files;

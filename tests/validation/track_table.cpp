@@ -1,6 +1,6 @@
 // Loads the race tracks of torcs-data and prints what each keeps and drops, as Markdown.
 //
-//   examples/fetch_tracks.sh road oval dirt
+//   examples/fetch_tracks.sh --all
 //   track_table build/cache/torcs/tracks
 
 #include <chrono>
