@@ -39,7 +39,7 @@ double steepestGround(const WallSelection& selection) { return selection.maxNorm
 std::vector<Wall> steepTriangles(const Scene& scene, const WallSelection& selection,
                                  WallReport& report) {
   const double limit = steepestGround(selection);
-  const std::vector<bool> scenery = matchingMeshes(scene, selection.scenery);
+  const std::vector<bool> scenery = matchingMeshes(scene, std::string(selection.scenery));
   std::vector<Wall> steep;
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     const Scene::Triangle& triangle = scene.triangles[i];

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "bumper/scenes/scene.h"
@@ -39,8 +39,8 @@ struct WallSelection {
   double maxNormalUp = 0.3;
 
   /// Meshes that no vehicle hits, such as pictures of trees: a pattern for matchingMeshes(); empty:
-  /// none. A trimesh of ODE's has no meshes.
-  std::string scenery{};
+  /// none. A trimesh of ODE's has no meshes. Must outlive the call that it is given to.
+  std::string_view scenery{};
 
   /// Drops walls that are there twice: with the same corners, or as the other two triangles of a
   /// plane quad that is there already.
