@@ -8,11 +8,13 @@
 #include <ode/ode.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -37,6 +39,7 @@ struct Order {
   std::filesystem::path scene;
   std::string up;
   double scale = 1.0;
+  std::string scenery;        // meshes to drive through
   std::vector<double> start;  // m, two numbers; empty: the middle of the scene
   double heading = 0.0;       // deg from x towards y
   double speed = 25.0;        // m/s
@@ -66,13 +69,14 @@ AngleCurve steeringOf(const std::vector<std::string>& entries) {
 
 // The application's side of ODE: one world, one space, and the scene as one static trimesh.
 struct World {
-  explicit World(const Scene& scene)
+  World(const Scene& scene, const std::vector<bool>& scenery)
       : world(dWorldCreate()), space(dHashSpaceCreate(nullptr)), joints(dJointGroupCreate(0)) {
     dWorldSetGravity(world, 0.0, 0.0, -gravity);
     for (const Eigen::Vector3d& v : scene.vertices) {
       vertices.insert(vertices.end(), {v.x(), v.y(), v.z()});
     }
     for (const Scene::Triangle& t : scene.triangles) {
+      if (scenery[t.mesh]) continue;
       indices.insert(indices.end(), t.corners.begin(), t.corners.end());
     }
     data = dGeomTriMeshDataCreate();
@@ -143,7 +147,7 @@ Eigen::Vector3d startOf(const Order& order, const Scene& scene, dGeomID mesh, do
 }
 
 Recording run(const Order& order, const Scene& scene) {
-  World world(scene);
+  World world(scene, matchingMeshes(scene, order.scenery));
   const YawPlaneCarDesign design;
   YawPlaneCar car(world.world, world.space, design,
                   startOf(order, scene, world.mesh, design.body.massCentreHeight),
@@ -155,9 +159,13 @@ Recording run(const Order& order, const Scene& scene) {
   const BarrierId barrier =
       responder.addBarrier(world.mesh, {.name = order.scene.filename().string()});
   const WallReport& report = responder.report(barrier);
-  std::printf("%s: %zu triangles, %zu of them walls from %.1f to %.1f m\n",
-              order.scene.filename().string().c_str(), scene.triangles.size(), report.walls,
-              report.lowestFoot, report.highestTop);
+  std::printf(
+      "%s: %zu triangles, %zu of them walls from %.1f to %.1f m (%.1f MB); dropped: %zu out of "
+      "reach, %zu twice\n",
+      order.scene.filename().string().c_str(), scene.triangles.size(), report.walls,
+      report.lowestFoot, report.highestTop, 1e-6 * static_cast<double>(report.memory),
+      report.droppedOverhead + report.droppedBuried,
+      report.droppedDuplicate + report.droppedRetriangulated);
 
   responder.addVehicle(car.body(), design.body, {.name = "car"});
   RaySuspension suspension(car, world.mesh, gravity);
@@ -189,8 +197,32 @@ Recording run(const Order& order, const Scene& scene) {
   return recording;
 }
 
+// Tells of what takes longer than a moment.
+class ProgressLine {
+ public:
+  ~ProgressLine() {
+    if (told_) std::fputc('\n', stderr);
+  }
+  void operator()(LoadStage stage, double share) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_ < std::chrono::milliseconds(500)) return;
+    last_ = now;
+    told_ = true;
+    constexpr std::array<const char*, 4> names{"reading", "converting", "welding", "dropping"};
+    const std::chrono::duration<double> passed = now - begun_;
+    std::fprintf(stderr, "\rloading: %.1f s, %s %3.0f %%   ", passed.count(),
+                 names.at(static_cast<std::size_t>(stage)), 100.0 * share);
+  }
+
+ private:
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point last_ = begun_;
+  bool told_ = false;
+};
+
 Scene load(const Order& order) {
-  LoadOptions options{.scale = order.scale, .isolate = true};
+  ProgressLine line;
+  LoadOptions options{.scale = order.scale, .isolate = true, .progress = std::ref(line)};
   if (order.up == "y") options.up = UpAxis::y;
   if (order.up == "z") options.up = UpAxis::z;
   try {
@@ -210,6 +242,9 @@ int drive(int argc, char** argv) {
   app.add_option("--scale", order.scale, "metres per unit of the file")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_option("--scenery", order.scenery,
+                 "meshes to drive through, by name or material, as trees in pictures: a regular "
+                 "expression, e.g. \"OBJ.*|TREE.*\"");
   app.add_option("--start", order.start, "of the start, m, z up (default: the scene's middle)")
       ->delimiter(',')
       ->expected(2)

@@ -123,7 +123,7 @@ const std::string& Barrier::materialOf(int wall) const {
 int Barrier::triangleOf(int wall) const {
   // The triangles of a box are Bumper's own.
   if (!mesh_ || mesh_->isSolid()) return -1;
-  return mesh_->walls()[static_cast<std::size_t>(wall)].triangle;
+  return mesh_->walls().triangle(static_cast<std::size_t>(wall));
 }
 
 int Barrier::settingsNumberOf(int wall) const {

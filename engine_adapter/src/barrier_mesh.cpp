@@ -18,6 +18,9 @@ void collectTriangles(dGeomID mesh, dGeomID /*box*/, const int* triangles, int c
   found->insert(found->end(), triangles, triangles + count);
 }
 
+// What ODE's tree takes for each triangle but one, bytes: a box in single precision, two pointers.
+constexpr std::size_t treeNodeSize = 6 * sizeof(float) + 2 * sizeof(void*);
+
 // The list of triangles is all that is wanted; no contact need be made of any of them.
 int noContact(dGeomID /*mesh*/, dGeomID /*box*/, int /*triangle*/) { return 0; }
 
@@ -45,9 +48,9 @@ BarrierMesh::BarrierMesh(const Scene& scene, const BarrierOptions& options, std:
     : name_(std::move(name)), ownsGeom_(true) {
   keepWalls(scene, selectWalls(scene, options.walls));
   buildMesh(query);
-  const Eigen::Vector3d middle = 0.5 * (low_ + high_);
   geom_ = dCreateTriMesh(options.space, data_, nullptr, nullptr, nullptr);
-  dGeomSetPosition(geom_, middle.x(), middle.y(), middle.z());
+  const Eigen::Vector3d& origin = walls_.origin();
+  dGeomSetPosition(geom_, origin.x(), origin.y(), origin.z());
 }
 
 BarrierMesh::BarrierMesh(const Scene& scene, dGeomID geom, const BarrierOptions& options,
@@ -61,9 +64,13 @@ BarrierMesh::BarrierMesh(dGeomID trimesh, const BarrierOptions& options, std::st
                          Query query)
     : name_(std::move(name)), geom_(trimesh) {
   const Scene scene = sceneOf(trimesh, name_);
-  Walls selected = selectWalls(scene, options.walls);
-  parts_ = wallParts(scene, selected);
-  keepWalls(scene, std::move(selected));
+  // A wall is one from foot to top, also where no outline reaches it.
+  WallSelection everywhere = options.walls;
+  everywhere.groundReach.reset();
+  Walls selected = selectWalls(scene, everywhere);
+  keepParts(wallParts(scene, selected));
+  dropOutOfReach(scene, options.walls, selected);
+  keepWalls(scene, selected);
   buildMesh(query);
 }
 
@@ -73,23 +80,33 @@ BarrierMesh::~BarrierMesh() {
   dGeomTriMeshDataDestroy(data_);
 }
 
-void BarrierMesh::keepWalls(const Scene& scene, Walls selected) {
+void BarrierMesh::keepParts(const std::vector<WallPart>& parts) {
+  for (std::uint32_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].kind == WallPart::Kind::none) continue;
+    parts_.push_back({.triangle = i,
+                      .foot = roundedDown(parts[i].foot),
+                      .top = roundedUp(parts[i].top),
+                      .kind = parts[i].kind});
+  }
+  parts_.shrink_to_fit();
+}
+
+void BarrierMesh::keepWalls(const Scene& scene, const Walls& selected) {
   if (selected.walls.empty()) {
     throw Error("barrier '" + name_ + "' has no wall: all of its " +
                 std::to_string(scene.triangles.size()) +
-                " triangles are flatter than WallSelection::maxNormalUp allows, or degenerate");
+                " triangles are flatter than WallSelection::maxNormalUp allows, degenerate, or "
+                "dropped for another reason that WallSelection gives");
   }
-  walls_ = std::move(selected.walls);
-  clearance_ = ClearanceMap(walls_);
+  walls_ = WallTable(selected.walls, scene);
+  clearance_ = ClearanceMap(selected.walls);
   report_ = selected.report;
   for (const SceneMesh& mesh : scene.meshes) materials_.push_back(mesh.material);
   low_.setConstant(std::numeric_limits<double>::infinity());
   high_ = -low_;
   highestFoot_ = -std::numeric_limits<double>::infinity();
   lowestTop_ = std::numeric_limits<double>::infinity();
-  for (const Wall& wall : walls_) {
-    meshOfWall_.push_back(
-        static_cast<int>(scene.triangles[static_cast<std::size_t>(wall.triangle)].mesh));
+  for (const Wall& wall : selected.walls) {
     for (const Eigen::Vector3d& corner : wall.corners) {
       low_ = low_.cwiseMin(corner);
       high_ = high_.cwiseMax(corner);
@@ -100,34 +117,43 @@ void BarrierMesh::keepWalls(const Scene& scene, Walls selected) {
 }
 
 void BarrierMesh::buildMesh(Query query) {
-  const Eigen::Vector3d middle = 0.5 * (low_ + high_);
-  for (const Wall& wall : walls_) {
-    for (const Eigen::Vector3d& corner : wall.corners) {
-      const Eigen::Vector3d local = corner - middle;
-      indices_.push_back(static_cast<dTriIndex>(vertices_.size() / 3));
-      vertices_.insert(vertices_.end(), {local.x(), local.y(), local.z()});
-    }
-  }
   // Single precision rounds by 6e-8 of the largest coordinate, in the tree and in the box.
   margin_ = 1e-4 + 1e-6 * (high_ - low_).norm();
 
+  const std::vector<double>& vertices = walls_.vertices();
+  const std::vector<dTriIndex>& indices = walls_.indices();
   const std::scoped_lock guard(trimeshLock());
   data_ = dGeomTriMeshDataCreate();
-  dGeomTriMeshDataBuildDouble(data_, vertices_.data(), 3 * sizeof(double),
-                              static_cast<int>(vertices_.size() / 3), indices_.data(),
-                              static_cast<int>(indices_.size()), 3 * sizeof(dTriIndex));
+  dGeomTriMeshDataBuildDouble(data_, vertices.data(), 3 * sizeof(double),
+                              static_cast<int>(vertices.size() / 3), indices.data(),
+                              static_cast<int>(indices.size()), 3 * sizeof(dTriIndex));
   queryGeom_ = dCreateTriMesh(nullptr, data_, nullptr, nullptr, nullptr);
   if (query == Query::list_triangles) {
     dGeomTriMeshSetCallback(queryGeom_, &noContact);
     dGeomTriMeshSetArrayCallback(queryGeom_, &collectTriangles);
   }
-  dGeomSetPosition(queryGeom_, middle.x(), middle.y(), middle.z());
+  const Eigen::Vector3d& origin = walls_.origin();
+  dGeomSetPosition(queryGeom_, origin.x(), origin.y(), origin.z());
+  report_.memory = memory();
+}
+
+std::size_t BarrierMesh::memory() const {
+  return walls_.memory() + clearance_.memory() + parts_.capacity() * sizeof(Part) +
+         (walls_.size() - 1) * treeNodeSize;
 }
 
 WallPart BarrierMesh::partOf(int triangle) const {
   const auto index = static_cast<std::size_t>(triangle);
-  if (!hasWallsOnly()) return parts_[index];
-  return {.kind = WallPart::Kind::face, .foot = walls_[index].foot, .top = walls_[index].top};
+  if (hasWallsOnly()) {
+    return {.kind = WallPart::Kind::face, .foot = walls_.foot(index), .top = walls_.top(index)};
+  }
+  const auto part =
+      std::lower_bound(parts_.begin(), parts_.end(), index,
+                       [](const Part& each, std::size_t wanted) { return each.triangle < wanted; });
+  if (part == parts_.end() || part->triangle != index) return {};
+  return {.kind = part->kind,
+          .foot = static_cast<double>(part->foot),
+          .top = static_cast<double>(part->top)};
 }
 
 bool BarrierMesh::reaches(const Eigen::Vector3d& centre, double radius) const {

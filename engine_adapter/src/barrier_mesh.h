@@ -9,6 +9,7 @@
 #include "bumper/scenes/clearance_map.h"
 #include "bumper/scenes/scene.h"
 #include "bumper/scenes/wall_parts.h"
+#include "wall_table.h"
 
 namespace bumper {
 
@@ -32,14 +33,14 @@ class BarrierMesh {
   BarrierMesh& operator=(BarrierMesh&&) = delete;
 
   [[nodiscard]] const std::string& name() const { return name_; }
-  [[nodiscard]] const std::vector<Wall>& walls() const { return walls_; }
+  [[nodiscard]] const WallTable& walls() const { return walls_; }
   [[nodiscard]] const WallReport& report() const { return report_; }
   /// The geom that the application's contacts come with.
   [[nodiscard]] dGeomID geom() const { return geom_; }
   /// The materials of the scene's meshes, and which of them a wall belongs to.
   [[nodiscard]] const std::vector<std::string>& materials() const { return materials_; }
   [[nodiscard]] std::size_t meshOf(int wall) const {
-    return static_cast<std::size_t>(meshOfWall_[static_cast<std::size_t>(wall)]);
+    return walls_.meshOf(static_cast<std::size_t>(wall));
   }
   /// What a triangle of geom() is to the walls; geom() must be a trimesh.
   [[nodiscard]] WallPart partOf(int triangle) const;
@@ -64,26 +65,31 @@ class BarrierMesh {
   [[nodiscard]] double margin() const { return margin_; }
 
  private:
-  void keepWalls(const Scene& scene, Walls selected);
+  // What a triangle of geom() is that has to do with a wall.
+  struct Part {
+    std::uint32_t triangle;
+    float foot;
+    float top;
+    WallPart::Kind kind;
+  };
+
+  void keepParts(const std::vector<WallPart>& parts);
+  void keepWalls(const Scene& scene, const Walls& selected);
   void buildMesh(Query query);
+  [[nodiscard]] std::size_t memory() const;
 
   std::string name_;
-  std::vector<Wall> walls_;
+  WallTable walls_;
   ClearanceMap clearance_;
   WallReport report_;
   std::vector<std::string> materials_;
-  std::vector<int> meshOfWall_;
-  std::vector<WallPart> parts_;  // by triangle of geom(); empty: it holds walls only
+  std::vector<Part> parts_;  // by triangle; empty: geom() holds walls only
   Eigen::Vector3d low_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d high_ = Eigen::Vector3d::Zero();
   double highestFoot_ = 0.0;
   double lowestTop_ = 0.0;
   double margin_ = 0.0;
 
-  // ODE does not copy these arrays. Vertices are stored around the middle of the mesh, where
-  // single precision is finest, and the geoms are placed there.
-  std::vector<double> vertices_;
-  std::vector<dTriIndex> indices_;
   dTriMeshDataID data_ = nullptr;
   dGeomID queryGeom_ = nullptr;  // in no space; carries our callbacks
   dGeomID geom_ = nullptr;

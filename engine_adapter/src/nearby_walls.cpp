@@ -54,7 +54,7 @@ void NearbyWalls::list(WallQuery& query, const std::vector<std::unique_ptr<Barri
       continue;
     }
     for (const int number : query.list(*barrier->mesh(), state, margins_)) {
-      const Wall& wall = barrier->mesh()->walls()[static_cast<std::size_t>(number)];
+      const Wall wall = barrier->mesh()->walls()[static_cast<std::size_t>(number)];
       const auto& corners = wall.corners;
       const Eigen::Vector3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
       const Eigen::Vector3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);

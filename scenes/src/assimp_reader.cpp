@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
+#include <assimp/ProgressHandler.hpp>
 #include <cctype>
 #include <limits>
 #include <map>
@@ -66,6 +67,24 @@ void requireFile(const std::filesystem::path& file) {
   if (std::filesystem::file_size(file, error) == 0) throw fileError(file, "is empty");
 }
 
+/// Hands on what assimp says of its reading.
+class ReadingProgress : public Assimp::ProgressHandler {
+ public:
+  explicit ReadingProgress(const Progress& progress) : progress_(progress) {}
+
+  // NOLINTNEXTLINE(google-default-arguments): assimp's
+  bool Update(float percentage = -1.0F) override {
+    // A half is for the post-processing that is not asked for; unknown is negative.
+    const double share = std::clamp(2.0 * static_cast<double>(percentage), share_, 1.0);
+    if (share > share_) progress_(LoadStage::reading, share_ = share);
+    return true;
+  }
+
+ private:
+  const Progress& progress_;
+  double share_ = 0.0;
+};
+
 using Transform = Eigen::Matrix4d;
 
 Transform toDouble(const aiMatrix4x4& m) {
@@ -78,8 +97,9 @@ Transform toDouble(const aiMatrix4x4& m) {
 /// Copies what assimp read into plain arrays, trusting none of it.
 class Converter {
  public:
-  Converter(std::filesystem::path file, const aiScene& source, FileScene& result)
-      : file_(std::move(file)), source_(source), result_(result) {}
+  Converter(std::filesystem::path file, const aiScene& source, FileScene& result,
+            const Progress& progress)
+      : file_(std::move(file)), source_(source), result_(result), progress_(progress) {}
 
   void convert() {
     struct Visit {
@@ -108,8 +128,16 @@ class Converter {
     throw fileError(file_, "is broken: mesh \"" + name + "\" " + what);
   }
 
+  void tellProgress() {
+    ++visited_;
+    // A file may show a mesh many times.
+    const double share = static_cast<double>(visited_) / (source_.mNumMeshes + 1.0);
+    if (share < 1.0 && visited_ % 16 == 0) progress_(LoadStage::converting, share);
+  }
+
   void addMesh(const aiNode& node, unsigned index, const Transform& transform) {
     const std::string nodeName = node.mName.C_Str();
+    tellProgress();
     if (index >= source_.mNumMeshes) fail(nodeName, "does not exist");
     const aiMesh& mesh = *source_.mMeshes[index];
     if (mesh.mNumVertices == 0 || mesh.mNumFaces == 0 || !mesh.HasPositions() || !mesh.HasFaces()) {
@@ -195,6 +223,8 @@ class Converter {
   std::filesystem::path file_;
   const aiScene& source_;
   FileScene& result_;
+  const Progress& progress_;
+  std::size_t visited_ = 0;        ///< meshes
   std::uint32_t firstVertex_ = 0;  ///< of the mesh at hand
   std::vector<Eigen::Vector3d> polygon_;
   std::vector<std::array<std::size_t, 3>> cut_;
@@ -235,9 +265,12 @@ void readConventions(const std::filesystem::path& file, const aiScene& source, F
 
 }  // namespace
 
-FileScene readWithAssimp(const std::filesystem::path& file, Formats formats) {
+FileScene readWithAssimp(const std::filesystem::path& file, Formats formats,
+                         const Progress& progress) {
   requireFile(file);
   Assimp::Importer importer;
+  progress(LoadStage::reading, 0.0);
+  importer.SetProgressHandler(std::make_unique<ReadingProgress>(progress).release());  // it owns
   if (formats == Formats::safe) keepOnly(importer, safeImporter(file));
   const aiScene* source = nullptr;
   std::string reason;
@@ -251,6 +284,8 @@ FileScene readWithAssimp(const std::filesystem::path& file, Formats formats) {
     if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
     throw fileError(file, "cannot be read: " + reason);
   }
+  progress(LoadStage::reading, 1.0);
+  progress(LoadStage::converting, 0.0);
   FileScene result;
   const int index = importer.GetPropertyInteger("importerIndex", -1);
   if (index >= 0) {
@@ -259,7 +294,7 @@ FileScene readWithAssimp(const std::filesystem::path& file, Formats formats) {
   }
   result.scene.name = file.stem().string();
   readConventions(file, *source, result);
-  Converter(file, *source, result).convert();
+  Converter(file, *source, result, progress).convert();
   if (result.scene.triangles.empty()) throw fileError(file, "holds no triangle");
   return result;
 }

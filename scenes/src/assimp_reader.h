@@ -11,7 +11,9 @@ enum class Formats {
   all,   ///< whatever assimp knows, by ending and content
 };
 
-/// Reads a file with assimp in this process. Throws Error.
-FileScene readWithAssimp(const std::filesystem::path& file, Formats formats);
+/// Reads a file with assimp in this process and converts what it holds. Throws Error. `progress`
+/// must be callable.
+FileScene readWithAssimp(const std::filesystem::path& file, Formats formats,
+                         const Progress& progress);
 
 }  // namespace bumper

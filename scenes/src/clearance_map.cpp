@@ -12,8 +12,12 @@ namespace bumper {
 namespace {
 
 constexpr double smallestCell = 1.0;  // m
-constexpr std::size_t fewestCells = 65536;
-constexpr std::size_t cellsPerWall = 32;
+constexpr double mostCells = 4e6;
+
+// Cells are kept in tiles of so many rows and columns. A tile all of whose cells are this far from
+// every wall, in cells, is kept as one number.
+constexpr std::size_t tileSide = 16;
+constexpr int farTile = 10;
 
 // Distances are kept in parts of a cell.
 constexpr int partsOfCell = 8;
@@ -92,27 +96,54 @@ ClearanceMap::ClearanceMap(const std::vector<Wall>& walls) {
   highY_ = y.high;
   const double width = x.high - x.low;
   const double depth = y.high - y.low;
-  const auto cells = static_cast<double>(std::max(fewestCells, cellsPerWall * walls.size()));
   // Of a long and narrow field a row of cells may be all there is.
-  cell_ = std::max({smallestCell, std::sqrt(width * depth / cells), (width + depth) / cells});
+  cell_ =
+      std::max({smallestCell, std::sqrt(width * depth / mostCells), (width + depth) / mostCells});
   columns_ = static_cast<std::size_t>(width / cell_) + 1;
   rows_ = static_cast<std::size_t>(depth / cell_) + 1;
 
-  distances_.assign(columns_ * rows_, most);
-  std::vector<std::uint8_t> away(distances_.size(), most);
-  for (const Wall& wall : walls) keepDistances(wall, away);
+  std::vector<std::uint8_t> distances(columns_ * rows_, most);
+  std::vector<std::uint8_t> away(distances.size(), most);
+  for (const Wall& wall : walls) findDistances(wall, distances, away);
   spread(away, columns_, rows_);
   for (std::size_t i = 0; i < away.size(); ++i) {
     // Within exactCells of a wall's cell all cells have their distance; from the middle of a cell
     // to the edge of another it is half a cell less.
     if (away[i] == 0) continue;
     const int parts = partsOfCell * (away[i] + exactCells) - partsOfCell / 2;
-    distances_[i] = static_cast<std::uint8_t>(std::min(parts, most));
+    distances[i] = static_cast<std::uint8_t>(std::min(parts, most));
   }
+  keep(distances);
+}
+
+void ClearanceMap::keep(const std::vector<std::uint8_t>& distances) {
+  const auto tilesFor = [](std::size_t cells) { return (cells + tileSide - 1) / tileSide; };
+  tileColumns_ = tilesFor(columns_);
+  tiles_.reserve(tileColumns_ * tilesFor(rows_));
+  std::array<std::uint8_t, tileSide * tileSide> tile;
+  for (std::size_t row = 0; row < rows_; row += tileSide) {
+    for (std::size_t column = 0; column < columns_; column += tileSide) {
+      tile.fill(most);
+      for (std::size_t r = row; r < std::min(row + tileSide, rows_); ++r) {
+        std::copy_n(distances.begin() + static_cast<std::ptrdiff_t>(r * columns_ + column),
+                    std::min(tileSide, columns_ - column),
+                    tile.begin() + static_cast<std::ptrdiff_t>((r - row) * tileSide));
+      }
+      const int nearest = *std::min_element(tile.begin(), tile.end());
+      if (nearest >= farTile * partsOfCell) {
+        tiles_.push_back(-nearest);
+      } else {
+        tiles_.push_back(static_cast<std::int32_t>(distances_.size()));
+        distances_.insert(distances_.end(), tile.begin(), tile.end());
+      }
+    }
+  }
+  distances_.shrink_to_fit();
 }
 
 // From the middles of all cells around a wall; these are then 0 cells away from it.
-void ClearanceMap::keepDistances(const Wall& wall, std::vector<std::uint8_t>& away) {
+void ClearanceMap::findDistances(const Wall& wall, std::vector<std::uint8_t>& distances,
+                                 std::vector<std::uint8_t>& away) const {
   Corners corners;
   Span height;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -133,14 +164,14 @@ void ClearanceMap::keepDistances(const Wall& wall, std::vector<std::uint8_t>& aw
                                    lowY_ + (low + 0.5) * cell_);
       const double distance = clearance(wall, middle) / cell_ * partsOfCell;
       const auto parts = static_cast<std::uint8_t>(std::min<double>(distance, most));
-      distances_[cell] = std::min(distances_[cell], parts);
+      distances[cell] = std::min(distances[cell], parts);
       away[cell] = 0;
     }
   }
 }
 
 double ClearanceMap::atLeast(double x, double y) const {
-  if (distances_.empty()) return std::numeric_limits<double>::infinity();
+  if (tiles_.empty()) return std::numeric_limits<double>::infinity();
   const double outsideX = std::max({lowX_ - x, x - highX_, 0.0});
   const double outsideY = std::max({lowY_ - y, y - highY_, 0.0});
   if (outsideX > 0.0 || outsideY > 0.0) return std::hypot(outsideX, outsideY);
@@ -153,7 +184,10 @@ double ClearanceMap::atLeast(double x, double y) const {
   const double asideY = std::abs(rows - static_cast<double>(row) - 0.5);
   // No less than the way to the cell's middle.
   const double aside = std::max(asideX, asideY) + 0.41422 * std::min(asideX, asideY);
-  const double parts = distances_[row * columns_ + column];
+  const std::int32_t tile = tiles_[row / tileSide * tileColumns_ + column / tileSide];
+  const double parts = tile < 0 ? -tile
+                                : distances_[static_cast<std::size_t>(tile) +
+                                             row % tileSide * tileSide + column % tileSide];
   return std::max(parts / partsOfCell - aside - 1e-9, 0.0) * cell_;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -19,6 +20,9 @@ struct FileScene {
   std::size_t pointsAndLines = 0;
   std::size_t emptyMeshes = 0;
 };
+
+/// Says nothing if nobody listens.
+using Progress = std::function<void(LoadStage stage, double share)>;
 
 inline Error fileError(const std::filesystem::path& file, const std::string& what) {
   return Error("scene file \"" + file.string() + "\" " + what);

@@ -1,15 +1,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <new>
-#include <set>
 #include <sstream>
 #include <vector>
 
 #include "assimp_reader.h"
 #include "bumper/scenes/walls.h"
+#include "corners.h"
 #include "file_scene.h"
 #include "read_isolated.h"
 #include "weld.h"
@@ -100,11 +99,9 @@ void dropDegenerate(Scene& scene, LoadReport& report) {
 }
 
 void dropDuplicates(Scene& scene, LoadReport& report) {
-  std::set<std::array<std::uint32_t, 3>> seen;
+  CornersTable seen(scene.triangles.size());
   report.droppedDuplicate = std::erase_if(scene.triangles, [&](const Scene::Triangle& triangle) {
-    std::array<std::uint32_t, 3> corners = triangle.corners;
-    std::sort(corners.begin(), corners.end());
-    return !seen.insert(corners).second;
+    return !seen.insert(sorted(triangle.corners));
   });
 }
 
@@ -112,9 +109,12 @@ void dropDuplicates(Scene& scene, LoadReport& report) {
 
 Scene loadScene(const std::filesystem::path& file, const LoadOptions& options, LoadReport* report) {
   validate(options);
+  const Progress progress =
+      options.progress ? options.progress : Progress([](LoadStage, double) {});
   FileScene read;
   try {
-    read = options.isolate ? readIsolated(file, options) : readWithAssimp(file, Formats::safe);
+    read = options.isolate ? readIsolated(file, options, progress)
+                           : readWithAssimp(file, Formats::safe, progress);
   } catch (const std::bad_alloc&) {
     throw fileError(file, "cannot be read: not enough memory");
   }
@@ -126,9 +126,14 @@ Scene loadScene(const std::filesystem::path& file, const LoadOptions& options, L
   done.droppedPointsAndLines = read.pointsAndLines;
   done.droppedEmptyMeshes = read.emptyMeshes;
   turn(read.scene, done.up, done.metresPerUnit);
+  progress(LoadStage::converting, 1.0);
+  progress(LoadStage::welding, 0.0);
   weldVertices(read.scene, done);
+  progress(LoadStage::welding, 1.0);
+  progress(LoadStage::dropping, 0.0);
   dropDegenerate(read.scene, done);
   dropDuplicates(read.scene, done);
+  progress(LoadStage::dropping, 1.0);
   done.triangles = read.scene.triangles.size();
   if (read.scene.triangles.empty()) throw fileError(file, "holds no triangle that has an area");
   try {

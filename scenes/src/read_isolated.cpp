@@ -25,6 +25,7 @@ namespace bumper {
 namespace {
 
 constexpr const char* programName = "bumper-read-scene";
+constexpr double progressInterval = 100.0;  // ms
 constexpr const char* programVariable = "BUMPER_READ_SCENE";
 
 std::filesystem::path findProgram() {
@@ -138,7 +139,7 @@ pid_t start(const std::filesystem::path& program, const std::filesystem::path& f
 
 /// Everything that comes out of the pipe, to its end.
 std::string readToEnd(const Descriptor& pipe, const std::filesystem::path& file,
-                      const LoadOptions& options) {
+                      const LoadOptions& options, const Progress& progress) {
   using Clock = std::chrono::steady_clock;
   const auto deadline =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(
@@ -152,8 +153,11 @@ std::string readToEnd(const Descriptor& pipe, const std::filesystem::path& file,
                                 std::to_string(options.timeout) + " s");
     }
     pollfd waitFor{pipe.number(), POLLIN, 0};
-    const int wait = static_cast<int>(std::min(std::ceil(left.count()), 1e6));
-    if (poll(&waitFor, 1, wait) <= 0) continue;
+    const int wait = static_cast<int>(std::min(std::ceil(left.count()), progressInterval));
+    if (poll(&waitFor, 1, wait) <= 0) {
+      progress(LoadStage::reading, 0.0);
+      continue;
+    }
     const ssize_t got = read(pipe.number(), block.data(), block.size());
     if (got == 0) return bytes;
     if (got < 0) {
@@ -170,7 +174,9 @@ std::string readToEnd(const Descriptor& pipe, const std::filesystem::path& file,
 
 }  // namespace
 
-FileScene readIsolated(const std::filesystem::path& file, const LoadOptions& options) {
+FileScene readIsolated(const std::filesystem::path& file, const LoadOptions& options,
+                       const Progress& progress) {
+  progress(LoadStage::reading, 0.0);
   const std::filesystem::path program = findProgram();
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) {
@@ -180,7 +186,7 @@ FileScene readIsolated(const std::filesystem::path& file, const LoadOptions& opt
   Descriptor input(ends[1]);
   Process process(start(program, file, options, input.number()));
   input.close();
-  const std::string bytes = readToEnd(output, file, options);
+  const std::string bytes = readToEnd(output, file, options, progress);
   const int status = process.end();
 
   if (WIFSIGNALED(status) && WTERMSIG(status) != SIGKILL) {
@@ -193,6 +199,9 @@ FileScene readIsolated(const std::filesystem::path& file, const LoadOptions& opt
         file, "cannot be read: " + program.string() + " ended without an answer that makes sense");
   }
   if (const auto* message = std::get_if<std::string>(&*result)) throw Error(*message);
+  // The program has read and converted.
+  progress(LoadStage::reading, 1.0);
+  progress(LoadStage::converting, 0.0);
   auto& read = std::get<FileScene>(*result);
   try {
     validate(read.scene);

@@ -57,7 +57,8 @@ bool writeAll(int output, std::string_view bytes) {
 std::string answer(const std::string& file, const char* memory) {
   using bumper::pack;
   try {
-    return pack(bumper::readWithAssimp(file, bumper::Formats::all));
+    return pack(
+        bumper::readWithAssimp(file, bumper::Formats::all, [](bumper::LoadStage, double) {}));
   } catch (const bumper::Error& error) {
     return pack(error.what());
   } catch (const std::bad_alloc&) {

@@ -1,5 +1,8 @@
 #include "bumper/scenes/scene.h"
 
+#include <algorithm>
+#include <regex>
+
 #include "bumper/response/error.h"
 
 namespace bumper {
@@ -34,6 +37,22 @@ void validate(const Scene& scene) {
          "vertex " + std::to_string(i) + " has a coordinate that is not finite; all must be");
   }
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) validate(scene, i);
+}
+
+std::vector<bool> matchingMeshes(const Scene& scene, const std::string& pattern) {
+  std::vector<bool> matching(scene.meshes.size(), false);
+  if (pattern.empty()) return matching;
+  try {
+    const std::regex expression(pattern);
+    std::transform(scene.meshes.begin(), scene.meshes.end(), matching.begin(),
+                   [&](const SceneMesh& mesh) {
+                     return std::regex_match(mesh.name, expression) ||
+                            std::regex_match(mesh.material, expression);
+                   });
+  } catch (const std::regex_error& error) {
+    throw Error("the pattern \"" + pattern + "\" is no regular expression: " + error.what());
+  }
+  return matching;
 }
 
 }  // namespace bumper

@@ -16,8 +16,6 @@ namespace bumper {
 
 namespace {
 
-using Corners = std::array<std::uint32_t, 3>;
-
 /// Cosine of the angle, 10°, by which a part of a wall may bend away from the triangle that it is
 /// grown from.
 constexpr double minAlignment = 0.985;

@@ -4,13 +4,12 @@
 #include <cstdint>
 #include <map>
 
+#include "corners.h"
 #include "weld.h"
 
 namespace bumper {
 
 namespace {
-
-using Corners = std::array<std::uint32_t, 3>;
 
 std::vector<Corners> weldedCorners(const Scene& scene) {
   const std::vector<std::uint32_t> welded = weld(scene.vertices);
@@ -18,11 +17,6 @@ std::vector<Corners> weldedCorners(const Scene& scene) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) corners[i][k] = welded[scene.triangles[i].corners[k]];
   }
-  return corners;
-}
-
-Corners sorted(Corners corners) {
-  std::sort(corners.begin(), corners.end());
   return corners;
 }
 

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <unordered_set>
 
 #include "bumper/response/error.h"
+#include "ground_levels.h"
+#include "repeated_walls.h"
 #include "wall_extents.h"
 #include "weld.h"
 
@@ -15,34 +16,30 @@ namespace bumper {
 
 namespace {
 
-using Corners = std::array<std::uint32_t, 3>;
-
-struct CornersHash {
-  std::size_t operator()(const Corners& corners) const {
-    std::uint64_t value = 0;
-    for (const std::uint32_t corner : corners) {
-      value = (value ^ corner) * 0x9E3779B97F4A7C15ULL;
-      value ^= value >> 32U;
-    }
-    return static_cast<std::size_t>(value);
-  }
-};
-
-Corners sorted(Corners corners) {
-  std::sort(corners.begin(), corners.end());
-  return corners;
-}
-
 void validate(const WallSelection& selection) {
-  if (selection.maxNormalUp >= 0.0 && selection.maxNormalUp <= 1.0) return;
-  throw Error("WallSelection::maxNormalUp is " + std::to_string(selection.maxNormalUp) +
-              ": allowed is 0 (exactly vertical) to 1 (everything)");
+  if (!(selection.maxNormalUp >= 0.0 && selection.maxNormalUp <= 1.0)) {
+    throw Error("WallSelection::maxNormalUp is " + std::to_string(selection.maxNormalUp) +
+                ": allowed is 0 (exactly vertical) to 1 (everything)");
+  }
+  if (!selection.groundReach) return;
+  const auto require = [](const char* name, double value) {
+    if (std::isfinite(value) && value >= 0.0) return;
+    throw Error(std::string("GroundReach::") + name + " is " + std::to_string(value) +
+                " m: it must be finite and not negative");
+  };
+  require("distance", selection.groundReach->distance);
+  require("above", selection.groundReach->above);
+  require("below", selection.groundReach->below);
 }
+
+// Room for rounding, so that at 0 what was built to be vertical is.
+double steepestGround(const WallSelection& selection) { return selection.maxNormalUp + 1e-9; }
 
 /// The triangles that stand steep enough, duplicates among them.
-std::vector<Wall> steepTriangles(const Scene& scene, double maxNormalUp, WallReport& report) {
-  // Room for rounding, so that at 0 what was built to be vertical is.
-  const double limit = maxNormalUp + 1e-9;
+std::vector<Wall> steepTriangles(const Scene& scene, const WallSelection& selection,
+                                 WallReport& report) {
+  const double limit = steepestGround(selection);
+  const std::vector<bool> scenery = matchingMeshes(scene, std::string(selection.scenery));
   std::vector<Wall> steep;
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     const Scene::Triangle& triangle = scene.triangles[i];
@@ -56,6 +53,10 @@ std::vector<Wall> steepTriangles(const Scene& scene, double maxNormalUp, WallRep
     const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
     if (std::abs(normal.z()) > limit) {
       ++report.droppedFlat;
+      continue;
+    }
+    if (scenery[triangle.mesh]) {
+      ++report.droppedScenery;
       continue;
     }
     steep.push_back({{a, b, c}, normal, static_cast<int>(i), 0.0, 0.0});
@@ -78,19 +79,20 @@ std::vector<Corners> weldedCorners(const std::vector<Wall>& walls) {
   return corners;
 }
 
-std::size_t dropDuplicates(std::vector<Wall>& walls, std::vector<Corners>& corners) {
-  std::unordered_set<Corners, CornersHash> seen;
-  seen.reserve(walls.size());
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < walls.size(); ++i) {
-    if (!seen.insert(sorted(corners[i])).second) continue;
-    walls[kept] = walls[i];
-    corners[kept++] = corners[i];
+void describe(Walls& walls) {
+  WallReport& report = walls.report;
+  walls.walls.shrink_to_fit();
+  report.walls = walls.walls.size();
+  report.memory = walls.walls.capacity() * sizeof(Wall);
+  report.lowestFoot = 0.0;
+  report.highestTop = 0.0;
+  if (walls.walls.empty()) return;
+  report.lowestFoot = std::numeric_limits<double>::infinity();
+  report.highestTop = -std::numeric_limits<double>::infinity();
+  for (const Wall& wall : walls.walls) {
+    report.lowestFoot = std::min(report.lowestFoot, wall.foot);
+    report.highestTop = std::max(report.highestTop, wall.top);
   }
-  const std::size_t dropped = walls.size() - kept;
-  walls.resize(kept);
-  corners.resize(kept);
-  return dropped;
 }
 
 }  // namespace
@@ -103,20 +105,39 @@ Walls selectWalls(const Scene& scene, const WallSelection& selection) {
                 " triangles: allowed are 715,827,882");
   }
   Walls result;
-  result.walls = steepTriangles(scene, selection.maxNormalUp, result.report);
+  result.walls = steepTriangles(scene, selection, result.report);
   std::vector<Corners> corners = weldedCorners(result.walls);
-  result.report.droppedDuplicate = dropDuplicates(result.walls, corners);
+  if (selection.dropRepeated) dropRepeated(result.walls, corners, result.report);
   findWallExtents(result.walls, corners);
-
-  result.report.walls = result.walls.size();
-  if (result.walls.empty()) return result;
-  result.report.lowestFoot = std::numeric_limits<double>::infinity();
-  result.report.highestTop = -std::numeric_limits<double>::infinity();
-  for (const Wall& wall : result.walls) {
-    result.report.lowestFoot = std::min(result.report.lowestFoot, wall.foot);
-    result.report.highestTop = std::max(result.report.highestTop, wall.top);
-  }
+  describe(result);
+  dropOutOfReach(scene, selection, result);
   return result;
+}
+
+void dropOutOfReach(const Scene& scene, const WallSelection& selection, Walls& walls) {
+  validate(selection);
+  if (!selection.groundReach || walls.walls.empty()) return;
+  const GroundReach& reach = *selection.groundReach;
+  const GroundLevels ground(scene, steepestGround(selection), reach.distance);
+  if (ground.empty()) return;
+  WallReport& report = walls.report;
+  std::erase_if(walls.walls, [&](const Wall& wall) {
+    switch (ground.placeOf(wall, reach)) {
+      case GroundLevels::Place::overhead:
+        ++report.droppedOverhead;
+        return true;
+      case GroundLevels::Place::buried:
+        ++report.droppedBuried;
+        return true;
+      case GroundLevels::Place::without_ground:
+        ++report.withoutGround;
+        return false;
+      case GroundLevels::Place::within_reach:
+        return false;
+    }
+    return false;
+  });
+  describe(walls);
 }
 
 }  // namespace bumper

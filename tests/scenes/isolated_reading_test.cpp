@@ -54,6 +54,16 @@ TEST_F(IsolatedReading, Works) {
   EXPECT_EQ(load().triangles.size(), 612U);
 }
 
+TEST_F(IsolatedReading, TellsThatItStillWaits) {
+  replaceProgram("sleep 1");
+  int told = 0;
+  EXPECT_THROW(
+      loadScene(path("rail.obj"),
+                {.up = UpAxis::z, .isolate = true, .progress = [&](LoadStage, double) { ++told; }}),
+      Error);
+  EXPECT_GE(told, 3);
+}
+
 TEST_F(IsolatedReading, ProgramIsTakenFromTheEnvironment) {
   setenv("BUMPER_READ_SCENE", path("nowhere").c_str(), 1);
   EXPECT_THAT([&] { static_cast<void>(load()); },

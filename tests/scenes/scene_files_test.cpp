@@ -121,6 +121,52 @@ TEST_F(SceneFiles, CourseSurvivesAGlbFile) {
   EXPECT_LT((box(loaded).max() - box(scene).max()).norm(), singlePrecision);
 }
 
+struct Told {
+  LoadStage stage;
+  double share;
+};
+
+/// Every stage begins with 0, ends with 1 and never goes back.
+void expectOrderly(const std::vector<Told>& told) {
+  ASSERT_GE(told.size(), 8U);
+  EXPECT_EQ(told.front().stage, LoadStage::reading);
+  EXPECT_EQ(told.front().share, 0.0);
+  EXPECT_EQ(told.back().stage, LoadStage::dropping);
+  EXPECT_EQ(told.back().share, 1.0);
+  for (std::size_t i = 1; i < told.size(); ++i) {
+    if (told[i].stage == told[i - 1].stage) {
+      EXPECT_GE(told[i].share, told[i - 1].share);
+      continue;
+    }
+    EXPECT_EQ(static_cast<int>(told[i].stage), static_cast<int>(told[i - 1].stage) + 1);
+    EXPECT_EQ(told[i - 1].share, 1.0);
+    EXPECT_EQ(told[i].share, 0.0);
+  }
+}
+
+TEST_F(SceneFiles, LoadingTellsHowItGoesOn) {
+  Scene scene = course();
+  // Many meshes, so that there is something to tell of them.
+  scene.meshes.clear();
+  for (int i = 0; i < 100; ++i) scene.meshes.push_back({.name = "part " + std::to_string(i)});
+  for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+    scene.triangles[i].mesh = static_cast<std::uint32_t>(i % 100);
+  }
+  saveScene(scene, path("course.obj"));
+  for (const bool isolate : {false, true}) {
+    std::vector<Told> told;
+    loadScene(path("course.obj"),
+              {.up = UpAxis::z, .isolate = isolate, .progress = [&](LoadStage stage, double share) {
+                 told.push_back({stage, share});
+               }});
+    expectOrderly(told);
+    const auto converting = std::count_if(told.begin(), told.end(), [](const Told& each) {
+      return each.stage == LoadStage::converting && each.share > 0.0 && each.share < 1.0;
+    });
+    EXPECT_EQ(converting > 0, !isolate);
+  }
+}
+
 TEST_F(SceneFiles, SavingSaysWhatIsWrong) {
   EXPECT_THAT([&] { saveScene(testRail(), path("rail.dwg")); },
               ThrowsMessage<Error>(AllOf(HasSubstr("rail.dwg"), HasSubstr(".glb"))));

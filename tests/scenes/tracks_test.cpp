@@ -45,7 +45,8 @@ TEST_P(TrackCounts, AreThoseCountedByOtherMeans) {
             GetParam().triangles);
   EXPECT_EQ(report.droppedDegenerate + report.droppedDuplicate, GetParam().dropped);
   EXPECT_EQ(scene.meshes.size(), GetParam().meshes);
-  EXPECT_EQ(selectWalls(scene).report.walls, GetParam().walls);
+  EXPECT_EQ(selectWalls(scene, {.dropRepeated = false, .groundReach = std::nullopt}).report.walls,
+            GetParam().walls);
   Eigen::Vector3d low = scene.vertices.front();
   Eigen::Vector3d high = low;
   for (const Eigen::Vector3d& vertex : scene.vertices) {

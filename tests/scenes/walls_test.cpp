@@ -59,6 +59,18 @@ TEST(WallSelection, RejectsALimitThatIsNone) {
   }
 }
 
+TEST(WallSelection, SceneryIsNoWall) {
+  Scene scene = testRail();
+  EXPECT_EQ(selectWalls(scene, {.scenery = "wall"}).report.walls, 144U);  // part of a name
+  const WallReport report = selectWalls(scene, {.scenery = "end_.*|tree"}).report;
+  EXPECT_EQ(report.walls, 72U);
+  EXPECT_EQ(report.droppedScenery, 72U);
+  EXPECT_EQ(report.walls + report.dropped(), scene.triangles.size());
+  EXPECT_EQ(selectWalls(scene, {.scenery = "concrete"}).report.walls, 0U);
+  EXPECT_THAT([&] { selectWalls(scene, {.scenery = "*tree"}); },
+              ThrowsMessage<Error>(HasSubstr("\"*tree\" is no regular expression")));
+}
+
 TEST(WallSelection, RejectsAnInvalidScene) {
   EXPECT_THAT([] { selectWalls(Scene{}); }, ThrowsMessage<Error>(HasSubstr("no triangle")));
 }

@@ -15,20 +15,24 @@ class ClearanceMap {
   /// Of no walls.
   ClearanceMap() = default;
 
-  /// Takes one byte of memory for each cell: at most about max(65,536, 32 × walls) of them, no
-  /// smaller than 1 m.
+  /// Cells are 1 m wide, or more where that would be over four million; those that are 10 cells
+  /// and more from every wall take next to no memory.
   explicit ClearanceMap(const std::vector<Wall>& walls);
 
   /// A horizontal distance, m, within which of a point of the world there is certainly no wall: the
-  /// true distance less at most 1.6 cells, up to 5 cells; at least 0.7 of it less 2 cells further away, up
-  /// to 31 cells; 0 for a point that is not finite. Infinite without walls.
+  /// true distance less at most 1.6 cells, up to 5 cells; at least 0.7 of it less 2 cells further
+  /// away, up to 31 cells; 0 for a point that is not finite. Infinite without walls.
   [[nodiscard]] double atLeast(double x, double y) const;
 
   [[nodiscard]] double cellSize() const { return cell_; }  ///< m
-  [[nodiscard]] std::size_t cellCount() const { return distances_.size(); }
+  [[nodiscard]] std::size_t memory() const {               ///< bytes
+    return distances_.capacity() + tiles_.capacity() * sizeof(std::int32_t);
+  }
 
  private:
-  void keepDistances(const Wall& wall, std::vector<std::uint8_t>& away);
+  void findDistances(const Wall& wall, std::vector<std::uint8_t>& distances,
+                     std::vector<std::uint8_t>& away) const;
+  void keep(const std::vector<std::uint8_t>& distances);
 
   std::size_t columns_ = 0;
   std::size_t rows_ = 0;
@@ -37,8 +41,11 @@ class ClearanceMap {
   double lowY_ = 0.0;
   double highX_ = 0.0;
   double highY_ = 0.0;
-  // From the middle of each cell, in parts of a cell.
+  // Distances from the middles of cells, in parts of a cell, tile by tile; and for each tile where
+  // it begins, or −1 times one distance for all of it.
   std::vector<std::uint8_t> distances_;
+  std::vector<std::int32_t> tiles_;
+  std::size_t tileColumns_ = 0;
 };
 
 }  // namespace bumper

@@ -37,4 +37,8 @@ struct Scene {
 /// coordinate that is not finite.
 void validate(const Scene& scene);
 
+/// For each mesh of a scene whether the whole of its name, or of its material, matches a regular
+/// expression (ECMAScript); an empty one matches none. Throws Error if `pattern` is none.
+std::vector<bool> matchingMeshes(const Scene& scene, const std::string& pattern);
+
 }  // namespace bumper

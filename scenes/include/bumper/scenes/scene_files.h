@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "bumper/scenes/scene.h"
@@ -10,6 +11,14 @@ namespace bumper {
 
 /// The axis of a file that points up. A scene's own is always z.
 enum class UpAxis { x, y, z };
+
+/// What loadScene() does, in this order.
+enum class LoadStage {
+  reading,     ///< the file's format is read
+  converting,  ///< polygons are cut into triangles, axes and unit turned into the scene's
+  welding,     ///< corners in the same place are joined
+  dropping     ///< degenerate and duplicate triangles are dropped
+};
 
 /// How to read a scene file.
 struct LoadOptions {
@@ -32,6 +41,12 @@ struct LoadOptions {
 
   double timeout = 10.0;                               ///< s, > 0; of a reading in isolation
   std::size_t memoryLimit = std::size_t{2048} << 20U;  ///< bytes, from 64 MiB; likewise
+
+  /// Is told how loading goes on: the stage and what is done of it, in [0, 1], never less than
+  /// before. Called from the thread that calls loadScene(), at the begin and end of each stage and,
+  /// as often as the format's reader says something, in between; in isolation every 0.1 s while the
+  /// file is read, and without saying how much is done. Must not throw.
+  std::function<void(LoadStage stage, double share)> progress{};
 };
 
 /// What was made of a file.

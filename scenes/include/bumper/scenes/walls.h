@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "bumper/scenes/scene.h"
@@ -22,21 +24,54 @@ struct Wall {
   double top = 0.0;
 };
 
-/// What makes a triangle a wall.
+/// How far a vehicle reaches that stands anywhere on a scene's ground. The defaults leave room for
+/// lorries, for slopes and for a jump.
+struct GroundReach {
+  double distance = 8.0;  ///< m, horizontally, from the ground that carries it; >= 0, finite
+  double above = 4.0;     ///< m above that ground; likewise
+  double below = 2.0;     ///< m below it, where its nose points down; likewise
+};
+
+/// What makes a triangle a wall. Each reduction can be switched off by itself.
 struct WallSelection {
   /// |vertical component of the unit normal| up to which a triangle is a wall; [0, 1]. 0.3 keeps
-  /// what leans by less than 17° from the vertical.
+  /// what leans by less than 17° from the vertical, 1 keeps all.
   double maxNormalUp = 0.3;
+
+  /// Meshes that no vehicle hits, such as pictures of trees: a pattern for matchingMeshes(); empty:
+  /// none. A trimesh of ODE's has no meshes. Must outlive the call that it is given to.
+  std::string_view scenery{};
+
+  /// Drops walls that are there twice: with the same corners, or as the other two triangles of a
+  /// plane quad that is there already.
+  bool dropRepeated = true;
+
+  /// Drops walls above and below all that a vehicle on the scene's own ground can reach; empty:
+  /// keeps them, for vehicles that drive on ground which is not in this scene as well. Ground is
+  /// what is no wall by its slope, unless it is narrower than a metre: a beam, the top of a wall.
+  /// A wall without any ground in reach horizontally is kept.
+  std::optional<GroundReach> groundReach = GroundReach{};
 };
 
 /// Where a scene's triangles went.
 struct WallReport {
   std::size_t walls = 0;
-  std::size_t droppedFlat = 0;        ///< ground, road, roofs, terrain
-  std::size_t droppedDegenerate = 0;  ///< no area
-  std::size_t droppedDuplicate = 0;   ///< the same three corners as a wall before, either winding
-  double lowestFoot = 0.0;            ///< m; 0 without walls
-  double highestTop = 0.0;            ///< m; 0 without walls
+  std::size_t droppedFlat = 0;            ///< ground, road, roofs, terrain
+  std::size_t droppedDegenerate = 0;      ///< no area
+  std::size_t droppedScenery = 0;         ///< steep, but WallSelection::scenery
+  std::size_t droppedDuplicate = 0;       ///< the corners of a wall before, either winding
+  std::size_t droppedRetriangulated = 0;  ///< a plane quad cut along its other diagonal
+  std::size_t droppedOverhead = 0;        ///< above what a vehicle on the ground nearby reaches
+  std::size_t droppedBuried = 0;          ///< its whole surface lies below that
+  std::size_t withoutGround = 0;  ///< walls with no ground nearby, which were kept therefore
+  std::size_t memory = 0;         ///< bytes that the walls take: here, or with their trees in ODE
+  double lowestFoot = 0.0;        ///< m; 0 without walls
+  double highestTop = 0.0;        ///< m; 0 without walls
+
+  [[nodiscard]] std::size_t dropped() const {
+    return droppedFlat + droppedDegenerate + droppedScenery + droppedDuplicate +
+           droppedRetriangulated + droppedOverhead + droppedBuried;
+  }
 };
 
 struct Walls {
@@ -46,5 +81,9 @@ struct Walls {
 
 /// The triangles of a scene that a vehicle can hit. Throws Error on an invalid scene or selection.
 Walls selectWalls(const Scene& scene, const WallSelection& selection = {});
+
+/// The last of the reductions, for walls that were selected without it; does nothing if
+/// `selection.groundReach` is empty or the scene has no ground.
+void dropOutOfReach(const Scene& scene, const WallSelection& selection, Walls& walls);
 
 }  // namespace bumper

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <ode/ode.h>
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <vector>
+
+#include "bumper/scenes/scene.h"
+#include "bumper/scenes/walls.h"
+
+namespace bumper {
+
+/// In single precision, never more and never less than the value.
+float roundedDown(double value);
+float roundedUp(double value);
+
+/// Walls in little memory. Corners that are the same are stored once, in double precision around a
+/// local origin, and are what ODE's trimesh is built on; foot and top are kept in single precision,
+/// rounded away from the wall. A wall is put together when it is asked for.
+class WallTable {
+ public:
+  WallTable() = default;
+  /// `walls` were selected from `scene`.
+  WallTable(const std::vector<Wall>& walls, const Scene& scene);
+
+  [[nodiscard]] std::size_t size() const { return records_.size(); }
+  [[nodiscard]] Wall operator[](std::size_t wall) const;
+  /// Which of the scene's meshes a wall belongs to.
+  [[nodiscard]] std::uint32_t meshOf(std::size_t wall) const;
+  [[nodiscard]] double foot(std::size_t wall) const;
+  [[nodiscard]] double top(std::size_t wall) const;
+  [[nodiscard]] int triangle(std::size_t wall) const { return records_[wall].triangle; }
+
+  /// Where the vertices' zero is. It is the world's own for walls near that.
+  [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }
+  /// Three numbers each, and three indices for each wall; stay where they are when the table moves.
+  [[nodiscard]] const std::vector<double>& vertices() const { return vertices_; }
+  [[nodiscard]] const std::vector<dTriIndex>& indices() const { return indices_; }
+
+  /// Bytes.
+  [[nodiscard]] std::size_t memory() const;
+
+  /// For loops over all walls.
+  class Iterator {
+   public:
+    using difference_type = std::ptrdiff_t;
+    using value_type = Wall;
+    Iterator(const WallTable& table, std::size_t wall) : table_(&table), wall_(wall) {}
+    Wall operator*() const { return (*table_)[wall_]; }
+    Iterator& operator++() {
+      ++wall_;
+      return *this;
+    }
+    bool operator==(const Iterator& other) const { return wall_ == other.wall_; }
+
+   private:
+    const WallTable* table_;
+    std::size_t wall_;
+  };
+  [[nodiscard]] Iterator begin() const { return {*this, 0}; }
+  [[nodiscard]] Iterator end() const { return {*this, size()}; }
+
+ private:
+  struct Record {
+    float foot;  // above the origin
+    float top;
+    std::int32_t triangle;
+  };
+  /// Walls of one mesh that follow one another.
+  struct Run {
+    std::uint32_t firstWall;
+    std::uint32_t mesh;
+  };
+
+  [[nodiscard]] Eigen::Vector3d corner(std::size_t wall, std::size_t k) const;
+  void chooseOrigin(const std::vector<Wall>& walls);
+
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  std::vector<double> vertices_;
+  std::vector<dTriIndex> indices_;
+  std::vector<Record> records_;
+  std::vector<Run> runs_;
+};
+
+}  // namespace bumper

@@ -1,0 +1,234 @@
+// Where is ground, and how high?
+//
+// Flat triangles that hang together at corners and are wide enough for a vehicle are ground. A grid
+// of cells keeps the heights of the ground triangles whose bounding rectangles touch each cell;
+// heights that are close together are kept as one range. All of this errs towards more ground, and
+// so towards more walls.
+
+#include "ground_levels.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "weld.h"
+
+namespace bumper {
+
+namespace {
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+/// Flat pieces narrower than this on average, m, carry no vehicle.
+constexpr double narrowest = 1.0;
+
+/// Ranges of height of one cell that are no further apart than this, m, become one.
+constexpr float levelGap = 0.5F;
+
+/// A range of heights is widened by this part of them, which single precision may have lost.
+constexpr double roundingShare = 2e-7;
+
+struct Box {
+  Eigen::Vector3d low;
+  Eigen::Vector3d high;
+};
+
+Box boxOf(const Scene& scene, const Scene::Triangle& triangle) {
+  const Eigen::Vector3d& a = scene.corner(triangle, 0);
+  const Eigen::Vector3d& b = scene.corner(triangle, 1);
+  const Eigen::Vector3d& c = scene.corner(triangle, 2);
+  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+}
+
+std::vector<std::uint32_t> flatTriangles(const Scene& scene, double maxNormalUp) {
+  std::vector<std::uint32_t> flat;
+  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+    const Scene::Triangle& triangle = scene.triangles[i];
+    const Eigen::Vector3d& a = scene.corner(triangle, 0);
+    const Eigen::Vector3d normal =
+        (scene.corner(triangle, 1) - a).cross(scene.corner(triangle, 2) - a);
+    if (normal.z() * normal.z() > maxNormalUp * maxNormalUp * normal.squaredNorm()) {
+      flat.push_back(i);
+    }
+  }
+  return flat;
+}
+
+/// Pieces of what hangs together, by their corners.
+class Pieces {
+ public:
+  explicit Pieces(std::size_t corners) : parents_(corners) {
+    std::iota(parents_.begin(), parents_.end(), 0U);
+  }
+
+  std::uint32_t find(std::uint32_t corner) {
+    while (parents_[corner] != corner) {
+      parents_[corner] = parents_[parents_[corner]];
+      corner = parents_[corner];
+    }
+    return corner;
+  }
+
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = find(a);
+    b = find(b);
+    parents_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parents_;
+};
+
+struct Extent {
+  double area = 0.0;
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector2d high = -low;
+};
+
+/// Leaves out what is too narrow for a vehicle.
+void keepWide(const Scene& scene, std::vector<std::uint32_t>& flat) {
+  const std::vector<std::uint32_t> welded = weld(scene.vertices);
+  Pieces pieces(welded.size());
+  const auto cornerOf = [&](std::uint32_t triangle, std::size_t k) {
+    return welded[scene.triangles[triangle].corners.at(k)];
+  };
+  for (const std::uint32_t i : flat) {
+    pieces.join(cornerOf(i, 0), cornerOf(i, 1));
+    pieces.join(cornerOf(i, 0), cornerOf(i, 2));
+  }
+  std::vector<std::uint32_t> numbers(welded.size(), none);
+  std::vector<std::uint32_t> pieceOf(flat.size());
+  std::vector<Extent> extents;
+  for (std::size_t n = 0; n < flat.size(); ++n) {
+    std::uint32_t& number = numbers[pieces.find(cornerOf(flat[n], 0))];
+    if (number == none) {
+      number = static_cast<std::uint32_t>(extents.size());
+      extents.emplace_back();
+    }
+    pieceOf[n] = number;
+    Extent& extent = extents[number];
+    const Scene::Triangle& triangle = scene.triangles[flat[n]];
+    const Eigen::Vector2d a = scene.corner(triangle, 0).head<2>();
+    const Eigen::Vector2d u = scene.corner(triangle, 1).head<2>() - a;
+    const Eigen::Vector2d v = scene.corner(triangle, 2).head<2>() - a;
+    extent.area += 0.5 * std::abs(u.x() * v.y() - u.y() * v.x());
+    for (std::size_t k = 0; k < 3; ++k) {
+      extent.low = extent.low.cwiseMin(scene.corner(triangle, k).head<2>());
+      extent.high = extent.high.cwiseMax(scene.corner(triangle, k).head<2>());
+    }
+  }
+  std::size_t kept = 0;
+  for (std::size_t n = 0; n < flat.size(); ++n) {
+    const Extent& extent = extents[pieceOf[n]];
+    if (extent.area >= narrowest * (extent.high - extent.low).norm()) flat[kept++] = flat[n];
+  }
+  flat.resize(kept);
+}
+
+}  // namespace
+
+GroundLevels::Cells GroundLevels::cellsOf(const Eigen::Vector2d& low,
+                                          const Eigen::Vector2d& high) const {
+  const auto cell = [&](double place, std::int64_t count) {
+    const double number = std::floor(place / cellSize_);
+    return static_cast<std::int64_t>(std::clamp(number, -1.0, static_cast<double>(count)));
+  };
+  return {cell(low.x() - origin_.x(), across_), cell(high.x() - origin_.x(), across_),
+          cell(low.y() - origin_.y(), deep_), cell(high.y() - origin_.y(), deep_)};
+}
+
+/// As wanted, or coarser where memory or time would grow faster than the number of triangles.
+/// `boxes` are the lower and upper corners of the triangles.
+void GroundLevels::chooseCellSize(const std::vector<Eigen::Vector2d>& boxes, double wanted) {
+  Eigen::Vector2d high = boxes.front();
+  origin_ = high;
+  for (const Eigen::Vector2d& corner : boxes) {
+    origin_ = origin_.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
+  const auto most = static_cast<double>(4 * boxes.size() + 65536);
+  for (cellSize_ = wanted;; cellSize_ *= 2.0) {
+    const Eigen::Vector2d cells = ((high - origin_) / cellSize_).array().floor() + 1.0;
+    if (cells.x() * cells.y() > most) continue;
+    across_ = static_cast<std::int64_t>(cells.x());
+    deep_ = static_cast<std::int64_t>(cells.y());
+    double visits = 0.0;
+    for (std::size_t i = 0; i < boxes.size() && visits <= most; i += 2) {
+      visits += static_cast<double>(cellsOf(boxes[i], boxes[i + 1]).count());
+    }
+    if (visits <= most) return;
+  }
+}
+
+void GroundLevels::add(std::size_t cell, float low, float high) {
+  for (std::uint32_t i = first_[cell]; i != none; i = levels_[i].next) {
+    Level& level = levels_[i];
+    if (low > level.high + levelGap || high < level.low - levelGap) continue;
+    level.low = std::min(level.low, low);
+    level.high = std::max(level.high, high);
+    return;
+  }
+  levels_.push_back({low, high, first_[cell]});
+  first_[cell] = static_cast<std::uint32_t>(levels_.size() - 1);
+}
+
+GroundLevels::GroundLevels(const Scene& scene, double maxNormalUp, double distance) {
+  std::vector<std::uint32_t> ground = flatTriangles(scene, maxNormalUp);
+  keepWide(scene, ground);
+  if (ground.empty()) return;
+  std::vector<Eigen::Vector2d> boxes;
+  boxes.reserve(2 * ground.size());
+  for (const std::uint32_t i : ground) {
+    const Box box = boxOf(scene, scene.triangles[i]);
+    boxes.emplace_back(box.low.head<2>());
+    boxes.emplace_back(box.high.head<2>());
+  }
+  chooseCellSize(boxes, std::max(0.5 * distance, narrowest));
+  first_.assign(static_cast<std::size_t>(across_ * deep_), none);
+  for (std::size_t n = 0; n < ground.size(); ++n) {
+    const Box box = boxOf(scene, scene.triangles[ground[n]]);
+    const auto low = static_cast<float>(box.low.z() - roundingShare * std::abs(box.low.z()));
+    const auto high = static_cast<float>(box.high.z() + roundingShare * std::abs(box.high.z()));
+    const Cells cells = cellsOf(boxes[2 * n], boxes[2 * n + 1]);
+    for (std::int64_t y = cells.near; y <= cells.far; ++y) {
+      for (std::int64_t x = cells.left; x <= cells.right; ++x) {
+        add(static_cast<std::size_t>(y * across_ + x), low, high);
+      }
+    }
+  }
+}
+
+GroundLevels::Place GroundLevels::placeOf(const Wall& wall, const GroundReach& reach) const {
+  const auto& [a, b, c] = wall.corners;
+  const Eigen::Vector3d low = a.cwiseMin(b).cwiseMin(c);
+  const Eigen::Vector3d high = a.cwiseMax(b).cwiseMax(c);
+  const Eigen::Vector2d around = Eigen::Vector2d::Constant(reach.distance);
+  Cells cells = cellsOf(low.head<2>() - around, high.head<2>() + around);
+  cells = {std::max<std::int64_t>(cells.left, 0), std::min(cells.right, across_ - 1),
+           std::max<std::int64_t>(cells.near, 0), std::min(cells.far, deep_ - 1)};
+  bool anyBelow = false;
+  bool any = false;
+  for (std::int64_t y = cells.near; y <= cells.far; ++y) {
+    for (std::int64_t x = cells.left; x <= cells.right; ++x) {
+      for (std::uint32_t i = first_[static_cast<std::size_t>(y * across_ + x)]; i != none;
+           i = levels_[i].next) {
+        const Level& level = levels_[i];
+        any = true;
+        if (static_cast<double>(level.high) + reach.above < low.z()) {
+          anyBelow = true;
+          // A wall is judged by its whole surface from above: the ground of one whose upper end is
+          // in reach may be elsewhere.
+        } else if (static_cast<double>(level.low) - reach.below <= std::max(high.z(), wall.top)) {
+          return Place::within_reach;
+        }
+      }
+    }
+  }
+  if (!any) return Place::without_ground;
+  return anyBelow ? Place::overhead : Place::buried;
+}
+
+}  // namespace bumper
