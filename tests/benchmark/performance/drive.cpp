@@ -16,7 +16,6 @@ namespace {
 constexpr double nearDistance = 1.0;    // m
 constexpr double touchDepth = 0.001;    // m
 constexpr double wallToCentre = 7.0;    // m, on the course; the same at the test rail
-constexpr double overshoot = 0.06;      // m: how far beyond the wall the swerve aims
 constexpr double pointSpacing = 0.1;    // m, of the line that is followed
 constexpr double tangentReach = 2.0;    // m before and behind, of its direction
 constexpr double straightAngle = 0.02;  // rad over the middle of a swerve
@@ -50,11 +49,17 @@ class Line {
   double spacing_ = 0.0;
 };
 
+// How far beyond the wall a swerve aims, m: so long does it touch.
+constexpr double overshoot = 0.03;
+// Every second swerve at the test rail, whose laps are short, turns back this far before the wall.
+constexpr double keptAway = 0.4;
+
 /// Out to a wall and back.
 struct Swerve {
   double middle = 0.0;  ///< m along the line
   double half = 0.0;    ///< m before and behind
   double side = 1.0;    ///< 1: to the left
+  double reach = 0.0;   ///< m to that side
 };
 
 /// A round beside the side wall of the test rail, 7 m from it.
@@ -87,15 +92,16 @@ Line courseLine() {
 }
 
 /// Swerves where the line is straight, to either side in turn.
-std::vector<Swerve> swervesOf(const Line& line, double way, double every, double half) {
+std::vector<Swerve> swervesOf(const Line& line, double way, double every, double half,
+                              double reach) {
   std::vector<Swerve> swerves;
   double side = -1.0;
   for (double middle = half; middle + half < way; middle += 1.0) {
-    const double reach = 0.35 * half;
+    const double beside = 0.35 * half;
     const double bend =
-        std::acos(std::min(1.0, line.ahead(middle - reach).dot(line.ahead(middle + reach))));
+        std::acos(std::min(1.0, line.ahead(middle - beside).dot(line.ahead(middle + beside))));
     if (bend > straightAngle) continue;
-    swerves.push_back({.middle = middle, .half = half, .side = side});
+    swerves.push_back({.middle = middle, .half = half, .side = side, .reach = reach});
     side = -side;
     middle += every;
   }
@@ -108,13 +114,14 @@ struct Offset {
   double slope = 0.0;
 };
 
-Offset offsetAt(const std::vector<Swerve>& swerves, double way, double reach) {
+Offset offsetAt(const std::vector<Swerve>& swerves, double way) {
   for (const Swerve& swerve : swerves) {
     const double from = (way - swerve.middle) / swerve.half;
     if (std::abs(from) >= 1.0) continue;
     const double angle = std::numbers::pi * from;
-    return {.value = 0.5 * swerve.side * reach * (1.0 + std::cos(angle)),
-            .slope = -0.5 * swerve.side * reach * std::numbers::pi / swerve.half * std::sin(angle)};
+    return {.value = 0.5 * swerve.side * swerve.reach * (1.0 + std::cos(angle)),
+            .slope = -0.5 * swerve.side * swerve.reach * std::numbers::pi / swerve.half *
+                     std::sin(angle)};
   }
   return {};
 }
@@ -166,18 +173,21 @@ Drive makeDrive(const Scene& scene, std::size_t poses) {
   const double speed = isCourse ? 28.0 : 9.0;
   const Line line = isCourse ? courseLine() : testRailLine();
   const double way = speed * stepSize * static_cast<double>(poses);
+  const Outline outline(queryCar());
+  const double reach = wallToCentre - outline.halfWidth + overshoot;
   std::vector<Swerve> swerves;
   if (isCourse) {
-    swerves = swervesOf(line, way, 350.0, 62.0);
+    swerves = swervesOf(line, way, 350.0, 62.0, reach);
   } else {
     for (double begin = 0.0; begin < way; begin += line.length()) {
-      swerves.push_back({.middle = begin + 18.0, .half = 26.0, .side = -1.0});
+      const bool turnsBack = swerves.size() % 2 == 1;
+      swerves.push_back({.middle = begin + 18.0,
+                         .half = 20.0,
+                         .side = -1.0,
+                         .reach = reach - (turnsBack ? keptAway : 0.0)});
     }
   }
-
-  const Outline outline(queryCar());
   const WallGrid grid(scene, radiusOf(outline) + 2.0 * nearDistance);
-  const double reach = wallToCentre - outline.halfWidth + overshoot;
   Drive drive;
   drive.poses.reserve(poses);
   std::vector<Nearness> kinds;
@@ -188,7 +198,7 @@ Drive makeDrive(const Scene& scene, std::size_t poses) {
     const double at = speed * stepSize * (static_cast<double>(i) - 1.0);
     const Vector2 ahead = line.ahead(at);
     const Vector2 left = turnedLeft(ahead);
-    const Offset offset = offsetAt(swerves, at, reach);
+    const Offset offset = offsetAt(swerves, at);
     Pose pose;
     pose.place.position = line.at(at) + offset.value * left;
     turn(pose.place, (ahead + offset.slope * left).normalized());

@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t countedPoses = 6000;
 constexpr const char* calibration = "nothing";
 
-void countKind(const std::string& scene, const std::string& name, const Drive& drive,
-               Nearness kind, QueryScheme& scheme) {
+void countKind(const std::string& scene, const std::string& name, const Drive& drive, Nearness kind,
+               QueryScheme& scheme) {
   callgrind::start();
   for (const Stretch& stretch : drive.stretches) {
     if (stretch.kind == kind) {

@@ -29,30 +29,20 @@ NamedScene makeScene(const std::string& name) {
   if (name == "S1") return {.name = name, .scene = testRail()};
   if (name == "S2") return {.name = name, .scene = wallsAlone(course())};
   if (name == "S2g") return {.name = name, .scene = course()};
-  if (name == "S3") {
-    return {
-        .name = name,
-        .scene = course(
-            {.innerPanels = 5000, .outerPanels = 5000, .groundAlong = 5000, .groundAcross = 8})};
-  }
-  if (name == "S4") {
-    return {.name = name,
-            .scene = course({.innerPanels = 10000,
-                             .outerPanels = 10000,
-                             .groundAlong = 10000,
-                             .groundAcross = 48})};
-  }
+  if (name == "S3") return {.name = name, .scene = courseOfSize(100000).scene};
+  if (name == "S4") return {.name = name, .scene = courseOfSize(1000000).scene};
   throw Error("there is no scene " + name + ": S1, S2, S2g, S3 and S4 are");
 }
 
 NamedScene courseOfSize(std::size_t triangles) {
-  constexpr std::size_t trianglesPerPanel = 20;  // inner and outer wall: 4; ground: 16
-  const std::size_t panels = std::max<std::size_t>(50, triangles / trianglesPerPanel);
+  // Of a panel of both walls there are 4 triangles, of 20 until panels are 0.54 m long.
+  const std::size_t panels = std::clamp<std::size_t>(triangles / 20, 50, 10000);
+  const std::size_t ground = triangles - 4 * panels;
   return {.name = "course " + std::to_string(triangles),
           .scene = course({.innerPanels = panels,
                            .outerPanels = panels,
                            .groundAlong = panels,
-                           .groundAcross = 8})};
+                           .groundAcross = ground / (2 * panels)})};
 }
 
 Scene wallsAlone(const Scene& scene) {
@@ -81,6 +71,16 @@ Scene shuffled(Scene scene) {
   for (std::size_t left = scene.triangles.size(); left > 1; --left) {
     std::swap(scene.triangles[left - 1], scene.triangles[random() % left]);
   }
+  return scene;
+}
+
+Scene regrouped(Scene scene) {
+  constexpr double square = 50.0;  // m
+  const auto place = [&](const Scene::Triangle& triangle) {
+    const Eigen::Vector3d& corner = scene.corner(triangle, 0);
+    return std::pair(std::floor(corner.x() / square), std::floor(corner.y() / square));
+  };
+  std::ranges::stable_sort(scene.triangles, {}, place);
   return scene;
 }
 

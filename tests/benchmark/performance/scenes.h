@@ -23,7 +23,8 @@ struct NamedScene {
 /// Throws Error for another name.
 NamedScene makeScene(const std::string& name);
 
-/// The course with about so many triangles, of which one in five is a wall. At least 1,000.
+/// The course with about so many triangles, at least 1,000. One in five is a wall, until its panels
+/// are 0.54 m long at 200,000: the rest is ground.
 NamedScene courseOfSize(std::size_t triangles);
 
 /// The walls of a scene alone, by the slope of its triangles; S2 of S2g.
@@ -31,6 +32,9 @@ Scene wallsAlone(const Scene& scene);
 
 /// The same triangles as a modeller may have left them: in random order.
 Scene shuffled(Scene scene);
+
+/// The same triangles, square by square of 50 m.
+Scene regrouped(Scene scene);
 
 /// The vehicle of all queries: 4.4 × 1.8 m, mass centre in the middle, 0.55 m high.
 VehicleParameters queryCar();
