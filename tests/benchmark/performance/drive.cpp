@@ -96,11 +96,15 @@ std::vector<Swerve> swervesOf(const Line& line, double way, double every, double
                               double reach) {
   std::vector<Swerve> swerves;
   double side = -1.0;
-  for (double middle = half; middle + half < way; middle += 1.0) {
+  double middle = half;
+  while (middle + half < way) {
     const double beside = 0.35 * half;
     const double bend =
         std::acos(std::min(1.0, line.ahead(middle - beside).dot(line.ahead(middle + beside))));
-    if (bend > straightAngle) continue;
+    if (bend > straightAngle) {
+      middle += 1.0;
+      continue;
+    }
     swerves.push_back({.middle = middle, .half = half, .side = side, .reach = reach});
     side = -side;
     middle += every;
@@ -179,12 +183,12 @@ Drive makeDrive(const Scene& scene, std::size_t poses) {
   if (isCourse) {
     swerves = swervesOf(line, way, 350.0, 62.0, reach);
   } else {
-    for (double begin = 0.0; begin < way; begin += line.length()) {
-      const bool turnsBack = swerves.size() % 2 == 1;
-      swerves.push_back({.middle = begin + 18.0,
+    const auto laps = static_cast<std::size_t>(std::ceil(way / line.length()));
+    for (std::size_t lap = 0; lap < laps; ++lap) {
+      swerves.push_back({.middle = line.length() * static_cast<double>(lap) + 18.0,
                          .half = 20.0,
                          .side = -1.0,
-                         .reach = reach - (turnsBack ? keptAway : 0.0)});
+                         .reach = reach - (lap % 2 == 1 ? keptAway : 0.0)});
     }
   }
   const WallGrid grid(scene, radiusOf(outline) + 2.0 * nearDistance);
