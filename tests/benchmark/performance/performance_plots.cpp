@@ -28,7 +28,7 @@ constexpr const char* places[] = {
 void triangles(std::ostream& out, const std::vector<QueryRow>& rows, const std::string& stem) {
   out << "set output '" << stem << "_triangles.png'\n"
       << "set xlabel 'triangles of the course'\nset ylabel 'ns per query or step'\n"
-      << "set xrange [700:1.4e6]\nset yrange [1:2e5]\n";
+      << "set xrange [700:1.4e6]\nset yrange [1:1e6]\n";
   std::array<std::ostringstream, 2> panels;
   for (const Legend& legend : legends) {
     std::ostringstream data;

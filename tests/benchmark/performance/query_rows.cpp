@@ -28,7 +28,6 @@ struct Subject {
   std::unique_ptr<QueryScheme> scheme;
   std::vector<Pose> own;  // of `stretches`, if they are not the drive's
   std::vector<Stretch> stretches;
-  bool isSlow = false;
   std::vector<double> asked;  // ns, by stretch
   std::vector<double> moved;
 };
@@ -39,26 +38,21 @@ void build(const NamedScene& scene, int builds, Subject& subject) {
   for (int i = 0; i < builds; ++i) {
     subject.scheme.reset();
     const double memory = heapInUse();
-    const double clock = threadNanoseconds();
+    const Timer timer;
     subject.scheme = makeQueryScheme(name, scene.scene);
-    subject.row.buildTime = std::min(subject.row.buildTime, 1e-6 * (threadNanoseconds() - clock));
+    subject.row.buildTime = std::min(subject.row.buildTime, 1e-6 * timer.elapsed());
     subject.row.memory = heapInUse() - memory;
   }
 }
 
-// Queries that take longer, ns, are timed by the thread's own clock.
-constexpr double longQuery = 1e5;
-
-double timeOf(QueryScheme& scheme, std::span<const Pose> poses, bool isSlow) {
-  const auto now = isSlow ? threadNanoseconds : nanoseconds;
-  const double clock = now();
+double timeOf(QueryScheme& scheme, std::span<const Pose> poses) {
+  const Timer timer;
   scheme.ask(poses);
-  return now() - clock;
+  return timer.elapsed();
 }
 
 /// Every stretch as it is, or for a slow scheme single poses spread over the drive.
-std::vector<Stretch> affordable(const Drive& drive, double budget, Subject& subject) {
-  QueryScheme& scheme = *subject.scheme;
+std::vector<Stretch> affordable(const Drive& drive, QueryScheme& scheme, double budget) {
   std::vector<Stretch> result;
   for (const Nearness kind : allNearness) {
     std::vector<Stretch> ofKind;
@@ -66,8 +60,7 @@ std::vector<Stretch> affordable(const Drive& drive, double budget, Subject& subj
                          [&](const Stretch& stretch) { return stretch.kind == kind; });
     if (ofKind.empty()) continue;
     const std::span<const Pose> sample = ofKind[ofKind.size() / 2].poses.first(1);
-    const double once = std::min(timeOf(scheme, sample, false), timeOf(scheme, sample, false));
-    subject.isSlow = subject.isSlow || once > longQuery;
+    const double once = std::min(timeOf(scheme, sample), timeOf(scheme, sample));
     const auto most = static_cast<std::size_t>(1e6 * budget / 3.0 / once);
     if (most >= drive.count(kind)) {
       result.insert(result.end(), ofKind.begin(), ofKind.end());
@@ -106,7 +99,7 @@ void choosePoses(const Drive& drive, double budget, Subject& subject) {
   } else if (subject.row.scheme == teleport) {
     subject.stretches = teleports(drive, subject.own);
   } else {
-    subject.stretches = affordable(drive, budget, subject);
+    subject.stretches = affordable(drive, *subject.scheme, budget);
   }
   subject.asked.assign(subject.stretches.size(), infinity);
   subject.moved.assign(subject.stretches.size(), infinity);
@@ -114,13 +107,13 @@ void choosePoses(const Drive& drive, double budget, Subject& subject) {
 
 void repeat(Subject& subject) {
   for (std::size_t i = 0; i < subject.stretches.size(); ++i) {
-    subject.asked[i] = std::min(
-        subject.asked[i], timeOf(*subject.scheme, subject.stretches[i].poses, subject.isSlow));
+    subject.asked[i] =
+        std::min(subject.asked[i], timeOf(*subject.scheme, subject.stretches[i].poses));
   }
   for (std::size_t i = 0; i < subject.stretches.size(); ++i) {
-    const double clock = nanoseconds();
+    const Timer timer;
     subject.scheme->move(subject.stretches[i].poses);
-    subject.moved[i] = std::min(subject.moved[i], nanoseconds() - clock);
+    subject.moved[i] = std::min(subject.moved[i], timer.elapsed());
   }
 }
 

@@ -17,14 +17,14 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// One whole step of one vehicle, ns: the mean over a run.
 double wholeStep(Fleet& fleet) {
   fleet.reset();
-  const double clock = threadNanoseconds();
+  const Timer timer;
   for (int i = 0; i < stepsPerRun; ++i) {
     fleet.push();
     fleet.collide();
     fleet.respond();
     fleet.stepWorld();
   }
-  return (threadNanoseconds() - clock) / stepsPerRun;
+  return timer.elapsed() / stepsPerRun;
 }
 
 struct Whole {
@@ -93,16 +93,16 @@ class FleetTimes {
     fleet_.reset();
     for (std::size_t i = 0; i < least_.size(); ++i) {
       fleet_.push();
-      const double begin = nanoseconds();
+      const Timer responding;
       fleet_.respond();
-      least_[i] = std::min(least_[i], nanoseconds() - begin);
-      const double clock = threadNanoseconds();
+      least_[i] = std::min(least_[i], responding.elapsed());
+      const Timer timer;
       if (between_ == Between::motion_alone) {
         fleet_.glide();
       } else {
         fleet_.stepWorld();
       }
-      world_[i] = std::min(world_[i], threadNanoseconds() - clock);
+      world_[i] = std::min(world_[i], timer.elapsed());
       if (between_ == Between::other_data) fillCaches();
     }
   }
@@ -121,8 +121,8 @@ class FleetTimes {
   static double clockTime() {
     double least = infinity;
     for (int i = 0; i < 100; ++i) {
-      const double begin = nanoseconds();
-      least = std::min(least, nanoseconds() - begin);
+      const Timer timer;
+      least = std::min(least, timer.elapsed());
     }
     return least;
   }
@@ -173,11 +173,11 @@ double responseTime(Law law, int repetitions) {
   double least = infinity;
   double sum = 0.0;
   for (int repetition = 0; repetition < 10 * repetitions; ++repetition) {
-    const double clock = nanoseconds();
+    const Timer timer;
     for (const PlanarMotion& motion : motions) {
       sum += respond(impact, motion, car.mass, car.yawInertia, settings).impulse.angular;
     }
-    least = std::min(least, nanoseconds() - clock);
+    least = std::min(least, timer.elapsed());
   }
   // The sum is looked at, so that it is calculated.
   return sum == 0.0 ? unknown : least / impacts;

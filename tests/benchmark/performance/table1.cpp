@@ -1,10 +1,11 @@
 #include "table1.h"
 
 #include <algorithm>
-#include <functional>
-#include <optional>
+#include <memory>
+#include <span>
 
 #include "bumper/engine_adapter/responder.h"
+#include "car_world.h"
 #include "clock.h"
 #include "moved_body.h"
 #include "yaw_plane_car.h"
@@ -22,10 +23,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 class Update {
  public:
   Update()
-      : world_(dWorldCreate()),
-        car_(world_, nullptr, examples::YawPlaneCarDesign{.body = queryCar()},
+      : car_(ode_.world, nullptr, examples::YawPlaneCarDesign{.body = queryCar()},
              Eigen::Vector3d(0.0, 0.0, queryCar().massCentreHeight), 0.0, 0.0) {}
-  virtual ~Update() = default;  // the world goes after the car
+  virtual ~Update() = default;
   Update(const Update&) = delete;
   Update& operator=(const Update&) = delete;
   Update(Update&&) = delete;
@@ -33,37 +33,23 @@ class Update {
 
   /// All updates of a drive, µs each.
   double run(std::span<const Pose> poses) {
-    const double clock = threadNanoseconds();
+    const Timer timer;
     for (const Pose& pose : poses) {
       writePose(car_.body(), pose, queryCar().massCentreHeight);
       car_.addTyreForces();
       collide(pose);
-      dWorldQuickStep(world_, stepSize);
+      dWorldQuickStep(ode_.world, stepSize);
     }
-    return 1e-3 * (threadNanoseconds() - clock) / static_cast<double>(poses.size());
+    return 1e-3 * timer.elapsed() / static_cast<double>(poses.size());
   }
 
  protected:
   virtual void collide(const Pose& /*pose*/) {}
-  [[nodiscard]] dWorldID world() const { return world_.get(); }
+  [[nodiscard]] dWorldID world() const { return ode_.world; }
   [[nodiscard]] dBodyID body() const { return car_.body(); }
 
  private:
-  struct World {
-    explicit World(dWorldID id) : id_(id) {}
-    ~World() { dWorldDestroy(id_); }
-    World(const World&) = delete;
-    World& operator=(const World&) = delete;
-    World(World&&) = delete;
-    World& operator=(World&&) = delete;
-    [[nodiscard]] dWorldID get() const { return id_; }
-    operator dWorldID() const { return id_; }  // NOLINT(google-explicit-constructor)
-
-   private:
-    dWorldID id_;
-  };
-
-  World world_;
+  CarWorld ode_;
   examples::YawPlaneCar car_;
 };
 
