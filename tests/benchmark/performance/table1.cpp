@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include "bumper/engine_adapter/responder.h"
 #include "car_world.h"
@@ -71,8 +72,8 @@ class BumperUpdate final : public Update {
 /// The paper's way: the outline's sides against the scene graph, and the response to what is hit.
 class OsgUpdate final : public Update {
  public:
-  OsgUpdate(const Scene& scene, const ResponseSettings& settings, OsgScene kind)
-      : query_(scene, kind), settings_(settings) {}
+  OsgUpdate(const Scene& scene, ResponseSettings settings, OsgScene kind)
+      : query_(scene, kind), settings_(std::move(settings)) {}
 
  private:
   void collide(const Pose& pose) override {
