@@ -4,15 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 
-#include "bumper/response/error.h"
 #include "hinge2_runs.h"
+#include "text_file.h"
 
 namespace bumper::benchmark {
 
@@ -288,17 +287,9 @@ void writePlots(std::ostream& out, const Results& results, const std::string& st
   }
 }
 
-void writeFile(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  if (!file) throw Error("cannot write " + path.string());
-}
-
 }  // namespace
 
 void writeReport(const Results& results, const std::filesystem::path& json) {
-  if (json.has_parent_path()) std::filesystem::create_directories(json.parent_path());
   const Json document = {
       {"seed", results.seed},
       {"cases", asJson(results.rows)},
