@@ -338,7 +338,7 @@ TEST(RecordingFile, recordingsWithoutPosesOrImpacts) {
   AnyNumbers numbers;
   Recording impacts;
   impacts.addVehicle("car", saloon());
-  for (int k = 0; k < 5000; ++k) impacts.addImpact(anyImpact(k, "car", numbers));
+  for (int k = 0; k < 2500; ++k) impacts.addImpact(anyImpact(k, "car", numbers));
   writeRecording(impacts, file);
   expectSame(readRecording(file), impacts);
   EXPECT_FALSE(RecordingReader(file).firstTime());
@@ -448,7 +448,7 @@ TEST(RecordingFile, aCutFileIsReadUpToTheCut) {
   const auto file = folder.path() / "run.jsonl";
   {
     RecordingWriter writer(file);
-    addLongRun(writer, 1, 5, 3);
+    addLongRun(writer, 1, 1, 1);
   }
   const std::string whole = readText(file);
   const auto cut = folder.path() / "cut.jsonl";
