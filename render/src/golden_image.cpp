@@ -37,8 +37,9 @@ GoldenResult compareWithGolden(const Image& actual, const std::filesystem::path&
     return {.matches = true, .explanation = "which was written to " + golden.string()};
   }
   const std::string name = golden.stem().string();
-  const std::filesystem::path actualFile = options.output / (name + "_actual.png");
-  const std::filesystem::path differenceFile = options.output / (name + "_difference.png");
+  const std::filesystem::path folder = std::filesystem::absolute(options.output);
+  const std::filesystem::path actualFile = folder / (name + "_actual.png");
+  const std::filesystem::path differenceFile = folder / (name + "_difference.png");
   std::error_code absent;
   std::filesystem::remove(actualFile, absent);
   std::filesystem::remove(differenceFile, absent);
@@ -56,12 +57,12 @@ GoldenResult compareWithGolden(const Image& actual, const std::filesystem::path&
                   << " % of the pixels differ, in the worst tile "
                   << 100.0 * comparison.worstTileShare << " %";
       if (comparison.isSame) return {.matches = true, .explanation = explanation.str()};
-      makeFolder(options.output);
+      makeFolder(folder);
       writePng(comparison.difference, differenceFile);
       explanation << "; see " << differenceFile;
     }
   }
-  makeFolder(options.output);
+  makeFolder(folder);
   writePng(actual, actualFile);
   explanation << "; the picture is in " << actualFile
               << ". If it is right, run again with BUMPER_UPDATE_GOLDEN=1.";

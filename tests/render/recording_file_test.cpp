@@ -1,6 +1,5 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <array>
 #include <bit>
@@ -19,6 +18,7 @@
 #include "bumper/render/recording_writer.h"
 #include "bumper/response/error.h"
 #include "bumper/scenes/paper_scenes.h"
+#include "long_run.h"
 #include "synthetic_run.h"
 #include "temporary_folder.h"
 #include "text_file.h"
@@ -26,8 +26,10 @@
 namespace bumper {
 namespace {
 
+using testing::addLongRun;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using testing::peakMemory;
 using testing::readText;
 using testing::saloon;
 using testing::TemporaryFolder;
@@ -217,35 +219,6 @@ Recording anyRun() {
     if (k % 50 == 3) run.addImpact(anyImpact(time - 0.01, "second \u8eca", numbers));
   }
   return run;
-}
-
-/// A vehicle that goes along x at 10 m/s, `perSecond` poses a second, with an impact at every full
-/// second.
-void addLongRun(RecordingWriter& writer, std::size_t vehicles, int seconds, int perSecond) {
-  for (std::size_t k = 0; k < vehicles; ++k) {
-    writer.addVehicle("car " + std::to_string(k), saloon());
-  }
-  for (int step = 0; step <= seconds * perSecond; ++step) {
-    const double time = static_cast<double>(step) / perSecond;
-    for (std::size_t k = 0; k < vehicles; ++k) {
-      RecordedPose pose;
-      pose.time = time;
-      const double turn = 0.1 * time + static_cast<double>(k);
-      pose.position = {10.0 * time, std::sin(turn), 0.5 + 0.01 * std::sin(7.0 * turn)};
-      pose.orientation = Eigen::AngleAxisd(turn, Eigen::Vector3d(0.01, 0.02, 1.0).normalized());
-      pose.velocity = {10.0, std::cos(turn), 0.07 * std::cos(7.0 * turn)};
-      pose.yawRate = 0.1 * std::cos(0.3 * turn);
-      writer.addPose(k, pose);
-    }
-    if (step % perSecond != 0) continue;
-    ImpactEvent event;
-    event.time = time;
-    event.vehicle = "car 0";
-    event.normal = Eigen::Vector3d::UnitY();
-    event.deltaV = time;
-    writer.addImpact(event);
-  }
-  writer.close();
 }
 
 RunDescription description() {
@@ -647,13 +620,6 @@ TEST(RecordingFile, impactsOfAFileWithoutEnd) {
   for (std::size_t k = 0; k < some.size(); ++k) {
     EXPECT_EQ(some[k].event().time, 1001.0 + static_cast<double>(k));
   }
-}
-
-/// The most memory that this process has had, bytes.
-std::uint64_t peakMemory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024U;
 }
 
 // Four minutes of ten cars: neither writing nor opening takes memory in proportion to the file.
