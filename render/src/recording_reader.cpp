@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <ranges>
+#include <iterator>
 #include <utility>
 
 #include "bumper/response/error.h"
@@ -200,10 +200,10 @@ class RecordingReader::Implementation {
   }
 
   void addImpacts(const RecordingSpan& span, Recording& recording) {
-    for (const auto& [time, begin] : impactsWithin(span)) {
-      naming(begin, [&] {
-        const RecordedImpact impact = parseImpact(lines_.lineAt(begin)->text);
-        if (impact.event().time != time) throw Error("the index gives another time");
+    for (const IndexedImpact& indexed : impactsWithin(span)) {
+      naming(indexed.second, [&] {
+        const RecordedImpact impact = parseImpact(lines_.lineAt(indexed.second)->text);
+        if (impact.event().time != indexed.first) throw Error("the index gives another time");
         recording.addImpact(impact.event());
       });
     }
@@ -227,9 +227,8 @@ class RecordingReader::Implementation {
     std::uint64_t before = bodyEnd_;
     while (index) {
       const IndexLine line = indexAt(*index, before);
-      for (const IndexedImpact& impact : std::views::reverse(line.impacts)) {
-        if (contains(span, impact.first)) later.push_back(impact);
-      }
+      std::copy_if(line.impacts.rbegin(), line.impacts.rend(), std::back_inserter(later),
+                   [&](const IndexedImpact& impact) { return contains(span, impact.first); });
       count += line.impacts.size();
       before = *index;
       index = line.previous;
