@@ -6,3 +6,10 @@ configure_package_config_file(cmake/bumperConfig.cmake.in bumperConfig.cmake
 write_basic_package_version_file(bumperConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/bumperConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/bumperConfigVersion.cmake
               cmake/FindODE.cmake cmake/FindOSMesa.cmake DESTINATION ${package_dir})
+
+# Image regression for others' tests goes with the component render.
+if(TARGET bumper-compare)
+  install(TARGETS bumper-compare EXPORT bumper_compare_target)
+  install(EXPORT bumper_compare_target NAMESPACE bumper:: DESTINATION ${package_dir})
+  install(FILES cmake/BumperImageTest.cmake cmake/BumperRunImageTest.cmake DESTINATION ${package_dir})
+endif()

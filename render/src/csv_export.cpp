@@ -16,13 +16,16 @@ namespace bumper {
 namespace {
 
 constexpr std::string_view eventsHeader =
-    "time_s,phase,vehicle,barrier,triangle,material,law,contact_x_m,contact_y_m,normal_x,normal_y,"
-    "arm_x_m,arm_y_m,angle_of_attack_deg,angle_centre_velocity_deg,angle_heading_deg,"
-    "approach_speed_mps,restitution,friction,impulse_normal_Ns,impulse_tangent_Ns,impulse_ratio,"
-    "critical_impulse_ratio,delta_v_mps,yaw_rate_before_rps,yaw_rate_after_rps,speed_before_mps,"
-    "speed_after_mps,energy_asked,energy_ratio,regime\n";
+    "time_s,phase,duration_s,vehicle,barrier,triangle,material,law,contact_x_m,contact_y_m,"
+    "contact_z_m,normal_x,normal_y,normal_z,arm_x_m,arm_y_m,angle_of_attack_deg,"
+    "angle_centre_velocity_deg,angle_heading_deg,approach_speed_mps,restitution,friction,"
+    "impulse_normal_Ns,impulse_tangent_Ns,impulse_ratio,critical_impulse_ratio,delta_v_mps,"
+    "yaw_rate_before_rps,yaw_rate_after_rps,speed_before_mps,speed_after_mps,"
+    "velocity_after_x_mps,velocity_after_y_mps,velocity_after_z_mps,energy_asked,energy_ratio,"
+    "energy_lost_J,outcome,regime\n";
 
-constexpr std::string_view trajectoryHeader = "time_s,x_m,y_m,yaw_rad,vx_mps,vy_mps,yaw_rate_rps\n";
+constexpr std::string_view trajectoryHeader =
+    "time_s,x_m,y_m,z_m,yaw_rad,vx_mps,vy_mps,vz_mps,yaw_rate_rps\n";
 
 /// One line of a file, field by field.
 class Row {
@@ -79,14 +82,17 @@ std::string eventsText(const Recording& recording) {
   for (const RecordedImpact& impact : recording.impacts()) {
     const ImpactEvent event = impact.event();
     Row row(text);
-    row << event.time << toString(event.phase) << event.vehicle << event.barrier << event.triangle
-        << event.material << toString(event.law) << event.contact.x() << event.contact.y()
-        << event.normal.x() << event.normal.y() << event.arm.x() << event.arm.y()
+    row << event.time << toString(event.phase) << event.duration << event.vehicle << event.barrier
+        << event.triangle << event.material << toString(event.law) << event.contact.x()
+        << event.contact.y() << event.contact.z() << event.normal.x() << event.normal.y()
+        << event.normal.z() << event.arm.x() << event.arm.y()
         << degrees(event.angles.contactVelocity) << degrees(event.angles.centreVelocity)
         << degrees(event.angles.heading) << event.approachSpeed << event.restitution
         << event.friction << event.impulseNormal << event.impulseTangent << event.impulseRatio
         << event.criticalImpulseRatio << event.deltaV << event.yawRateBefore << event.yawRateAfter
-        << event.speedBefore << event.speedAfter << event.energyAsked << event.energyRatio
+        << event.speedBefore << event.speedAfter << event.velocityAfter.x()
+        << event.velocityAfter.y() << event.velocityAfter.z() << event.energyAsked
+        << event.energyRatio << event.energyLost << toString(event.outcome)
         << toString(event.regime);
     row.end();
   }
@@ -100,8 +106,8 @@ std::string trajectoryText(const RecordedVehicle& vehicle) {
     const double wrapped = heading(pose.orientation);
     yaw = wrapped + 2.0 * std::numbers::pi * std::round((yaw - wrapped) / (2.0 * std::numbers::pi));
     Row row(text);
-    row << pose.time << pose.position.x() << pose.position.y() << yaw << pose.velocity.x()
-        << pose.velocity.y() << pose.yawRate;
+    row << pose.time << pose.position.x() << pose.position.y() << pose.position.z() << yaw
+        << pose.velocity.x() << pose.velocity.y() << pose.velocity.z() << pose.yawRate;
     row.end();
   }
   return text;

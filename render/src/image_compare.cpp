@@ -21,6 +21,33 @@ struct Range {
 
 std::array<int, 3> channels(const Rgb& pixel) { return {pixel.red, pixel.green, pixel.blue}; }
 
+/// Every pixel the mean of those around it, as far as the picture goes.
+Image smoothed(const Image& image, int radius) {
+  if (radius == 0) return image;
+  Image result(image.width(), image.height());
+  for (int y = 0; y < image.height(); ++y) {
+    const int top = std::max(y - radius, 0);
+    const int bottom = std::min(y + radius, image.height() - 1);
+    for (int x = 0; x < image.width(); ++x) {
+      const int left = std::max(x - radius, 0);
+      const int right = std::min(x + radius, image.width() - 1);
+      std::array<int, 3> sum{};
+      for (int j = top; j <= bottom; ++j) {
+        for (int i = left; i <= right; ++i) {
+          const auto pixel = channels(image.at(i, j));
+          for (std::size_t k = 0; k < 3; ++k) sum[k] += pixel[k];
+        }
+      }
+      const int count = (right - left + 1) * (bottom - top + 1);
+      const auto mean = [&](std::size_t k) {
+        return static_cast<std::uint8_t>((sum[k] + count / 2) / count);
+      };
+      result.at(x, y) = {mean(0), mean(1), mean(2)};
+    }
+  }
+  return result;
+}
+
 Range rangeAround(const Image& image, int x, int y, int reach) {
   Range range;
   const int right = std::min(x + reach, image.width() - 1);
@@ -51,7 +78,8 @@ Rgb paleGrey(const Rgb& pixel) {
   return {grey, grey, grey};
 }
 
-void requireRange(int value, int high, const char* name) {
+template <typename Number>
+void requireRange(Number value, int high, const char* name) {
   if (value >= 0 && value <= high) return;
   throw Error(std::string("ImageCompareOptions::") + name + " is " + std::to_string(value) +
               ": it must lie in 0 to " + std::to_string(high));
@@ -62,7 +90,10 @@ void requireRange(int value, int high, const char* name) {
 ImageComparison compareImages(const Image& first, const Image& second,
                               const ImageCompareOptions& options) {
   requireRange(options.tolerance, 255, "tolerance");
+  requireRange(options.smoothing, 8, "smoothing");
   requireRange(options.reach, 8, "reach");
+  requireRange(options.mostDiffering, 1, "mostDiffering");
+  requireRange(options.mostDifferingInTile, 1, "mostDifferingInTile");
   const int width = first.width();
   const int height = first.height();
   if (second.width() != width || second.height() != height) {
@@ -71,6 +102,8 @@ ImageComparison compareImages(const Image& first, const Image& second,
                 " x " + std::to_string(second.height()) + ": the sizes must be the same");
   }
 
+  const Image firstMeans = smoothed(first, options.smoothing);
+  const Image secondMeans = smoothed(second, options.smoothing);
   ImageComparison result{.difference = Image(width, height)};
   const int tilesAcross = (width + tileSide - 1) / tileSide;
   const int tilesDown = (height + tileSide - 1) / tileSide;
@@ -88,10 +121,12 @@ ImageComparison compareImages(const Image& first, const Image& second,
         sum += std::abs(a[k] - b[k]);
       }
       result.worstDifference = std::max(result.worstDifference, worst);
+      const Rgb& meanA = firstMeans.at(x, y);
+      const Rgb& meanB = secondMeans.at(x, y);
       const bool differs =
-          worst > options.tolerance &&
-          (isOutside(first.at(x, y), rangeAround(second, x, y, options.reach), options.tolerance) ||
-           isOutside(second.at(x, y), rangeAround(first, x, y, options.reach), options.tolerance));
+          isOutside(meanA, {channels(meanB), channels(meanB)}, options.tolerance) &&
+          (isOutside(meanA, rangeAround(secondMeans, x, y, options.reach), options.tolerance) ||
+           isOutside(meanB, rangeAround(firstMeans, x, y, options.reach), options.tolerance));
       result.difference.at(x, y) = differs ? Rgb{220, 0, 30} : paleGrey(first.at(x, y));
       if (!differs) continue;
       ++differing;
@@ -105,6 +140,8 @@ ImageComparison compareImages(const Image& first, const Image& second,
   result.meanDifference = static_cast<double>(sum) / (3.0 * pixels);
   result.worstTileShare =
       static_cast<double>(std::ranges::max(differingInTile)) / (tileSide * tileSide);
+  result.isSame = result.differingShare <= options.mostDiffering &&
+                  result.worstTileShare <= options.mostDifferingInTile;
   return result;
 }
 

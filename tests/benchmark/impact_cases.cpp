@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <random>
-#include <sstream>
+#include <stdexcept>
 #include <string>
 
 #include "bumper/response/error.h"
 #include "bumper/scenes/paper_scenes.h"
+#include "csv_reader.h"
 
 namespace bumper::benchmark {
 
@@ -209,9 +209,13 @@ class CaseMaker {
   Vector2 along_;
 };
 
-/// A cell as a number, or `otherwise` if it is empty.
-double numberIn(const std::vector<std::string>& cells, std::size_t column, double otherwise) {
-  return cells[column].empty() ? otherwise : std::stod(cells[column]);
+double numberIn(const testing::CsvRecord& row, const char* column) {
+  return std::stod(row.at(column));
+}
+
+/// The same, or `otherwise` if the field is empty.
+double numberIn(const testing::CsvRecord& row, const char* column, double otherwise) {
+  return row.at(column).empty() ? otherwise : numberIn(row, column);
 }
 
 }  // namespace
@@ -235,33 +239,28 @@ const char* nameOf(CaseKind kind) {
 }
 
 std::vector<YawPlaneCarDesign> readCars(const std::filesystem::path& csv) {
-  std::ifstream file(csv);
-  if (!file) throw Error("cannot read " + csv.string());
   std::vector<YawPlaneCarDesign> cars(1);
   cars[0].body.yawInertia = 2500.0;
-  std::string line;
-  std::getline(file, line);
-  while (std::getline(file, line)) {
-    std::vector<std::string> cells(11);
-    std::istringstream stream(line);
-    for (std::string& cell : cells) std::getline(stream, cell, ',');
-    if (cells[1].empty() || cells[2].empty()) continue;
+  for (const testing::CsvRecord& row : testing::readCsv(csv)) {
+    if (row.at("mass_kg").empty() || row.at("izz_kgm2").empty()) continue;
     try {
       YawPlaneCarDesign car;
-      car.massCentreToFrontAxle = std::stod(cells[3]);
-      car.massCentreToRearAxle = std::stod(cells[4]);
+      car.massCentreToFrontAxle = numberIn(row, "cg_to_front_axle_m");
+      car.massCentreToRearAxle = numberIn(row, "cg_to_rear_axle_m");
       // Unknown overhangs: what the length leaves, shared equally.
       const double overhang =
-          0.5 * (std::stod(cells[7]) - car.massCentreToFrontAxle - car.massCentreToRearAxle);
-      car.body = {.mass = std::stod(cells[1]),
-                  .yawInertia = std::stod(cells[2]),
-                  .massCentreToFront = numberIn(cells, 5, car.massCentreToFrontAxle + overhang),
-                  .massCentreToRear = numberIn(cells, 6, car.massCentreToRearAxle + overhang),
-                  .width = std::stod(cells[8]),
-                  .massCentreHeight = numberIn(cells, 9, 0.55)};
+          0.5 * (numberIn(row, "length_m") - car.massCentreToFrontAxle - car.massCentreToRearAxle);
+      const double front = car.massCentreToFrontAxle + overhang;
+      const double rear = car.massCentreToRearAxle + overhang;
+      car.body = {.mass = numberIn(row, "mass_kg"),
+                  .yawInertia = numberIn(row, "izz_kgm2"),
+                  .massCentreToFront = numberIn(row, "cg_to_front_bumper_m", front),
+                  .massCentreToRear = numberIn(row, "cg_to_rear_bumper_m", rear),
+                  .width = numberIn(row, "width_m"),
+                  .massCentreHeight = numberIn(row, "cg_height_m", 0.55)};
       cars.push_back(car);
     } catch (const std::logic_error&) {
-      throw Error(csv.string() + ": not a row of numbers: " + line);
+      throw Error(csv.string() + ": no numbers for \"" + row.at("vehicle") + '"');
     }
   }
   return cars;

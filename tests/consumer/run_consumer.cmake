@@ -1,5 +1,6 @@
-# Installs the build tree into an empty prefix, then builds and runs the consumer against it.
-#   cmake -D BUILD=<build tree> -D GENERATOR=<its generator> -D SOURCE=<tests/consumer> -D WORK=<folder> -P run_consumer.cmake
+# Installs the build tree into an empty prefix, then builds and runs the consumers against it.
+#   cmake -D BUILD=<build tree> -D GENERATOR=<its generator> -D SOURCE=<tests/consumer> -D WORK=<folder>
+#         -D PICTURES=<whether the package has the component render> -P run_consumer.cmake
 file(REMOVE_RECURSE ${WORK})
 
 function(run)
@@ -14,3 +15,8 @@ run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCE} -B ${WORK}/build -D CMAKE_PREF
     -D CMAKE_BUILD_TYPE=Release)
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)
+
+if(PICTURES)
+  run(${CMAKE_COMMAND} -D PREFIX=${WORK}/prefix -D GENERATOR=${GENERATOR} -D SOURCE=${SOURCE}/pictures
+      -D WORK=${WORK}/pictures -P ${SOURCE}/run_pictures.cmake)
+endif()

@@ -12,11 +12,15 @@
 #include <locale>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 #include "bumper/response/error.h"
 #include "csv_reader.h"
 #include "synthetic_run.h"
 #include "temporary_folder.h"
+#include "text_file.h"
 
 namespace bumper {
 namespace {
@@ -38,10 +42,11 @@ ImpactEvent awkwardEvent() {
   event.vehicle = "car, \"red\"";
   event.barrier = "north\nrail";
   event.triangle = 1837;
+  event.phase = EventPhase::contact_end;
   event.material = "W-beam; 12 ga";
   event.law = Law::energy;
   event.contact = {1.0 / 3.0, -2.0 / 7.0, 5.0};
-  event.normal = {std::cos(1.0), std::sin(1.0), 0.0};
+  event.normal = Eigen::Vector3d(std::cos(1.0), std::sin(1.0), 0.1).normalized();
   event.arm = {2.0 / 3.0, -0.7};
   event.angles = {0.1, 0.2, 0.3};
   event.approachSpeed = 1e-300;
@@ -58,6 +63,10 @@ ImpactEvent awkwardEvent() {
   event.speedAfter = 25.1;
   event.energyAsked = 0.9;
   event.energyRatio = notANumber;
+  event.velocityAfter = {1.0 / 9.0, -2.0 / 9.0, 4.0 / 9.0};
+  event.energyLost = 1e5 / 7.0;
+  event.duration = 0.7 / 3.0;
+  event.outcome = EnergyOutcome::limited_by_friction;
   event.regime = Regime::reverse_slip;
   return event;
 }
@@ -72,71 +81,62 @@ TEST(CsvExport, eventsReadBackExactly) {
 
   const auto rows = parseCsv(readText(folder.path() / "events.csv"));
   ASSERT_EQ(rows.size(), 2U);
-  const CsvRow header = {"time_s",
-                         "phase",
-                         "vehicle",
-                         "barrier",
-                         "triangle",
-                         "material",
-                         "law",
-                         "contact_x_m",
-                         "contact_y_m",
-                         "normal_x",
-                         "normal_y",
-                         "arm_x_m",
-                         "arm_y_m",
-                         "angle_of_attack_deg",
-                         "angle_centre_velocity_deg",
-                         "angle_heading_deg",
-                         "approach_speed_mps",
-                         "restitution",
-                         "friction",
-                         "impulse_normal_Ns",
-                         "impulse_tangent_Ns",
-                         "impulse_ratio",
-                         "critical_impulse_ratio",
-                         "delta_v_mps",
-                         "yaw_rate_before_rps",
-                         "yaw_rate_after_rps",
-                         "speed_before_mps",
-                         "speed_after_mps",
-                         "energy_asked",
-                         "energy_ratio",
-                         "regime"};
-  EXPECT_EQ(rows[0], header);
-  const CsvRow& row = rows[1];
-  ASSERT_EQ(row.size(), header.size());
-  EXPECT_EQ(number(row[0]), event.time);
-  EXPECT_EQ(row[1], "impact");
-  EXPECT_EQ(row[2], event.vehicle);
-  EXPECT_EQ(row[3], event.barrier);
-  EXPECT_EQ(row[4], "1837");
-  EXPECT_EQ(row[5], event.material);
-  EXPECT_EQ(row[6], "energy");
-  EXPECT_EQ(number(row[7]), event.contact.x());
-  EXPECT_EQ(number(row[8]), event.contact.y());
-  EXPECT_EQ(number(row[9]), event.normal.x());
-  EXPECT_EQ(number(row[10]), event.normal.y());
-  EXPECT_EQ(number(row[11]), event.arm.x());
-  EXPECT_EQ(number(row[12]), event.arm.y());
-  EXPECT_DOUBLE_EQ(number(row[13]), 0.1 * 180.0 / std::numbers::pi);
-  EXPECT_DOUBLE_EQ(number(row[14]), 0.2 * 180.0 / std::numbers::pi);
-  EXPECT_DOUBLE_EQ(number(row[15]), 0.3 * 180.0 / std::numbers::pi);
-  EXPECT_EQ(number(row[16]), event.approachSpeed);
-  EXPECT_EQ(number(row[17]), event.restitution);
-  EXPECT_EQ(number(row[18]), event.friction);
-  EXPECT_EQ(number(row[19]), event.impulseNormal);
-  EXPECT_EQ(number(row[20]), event.impulseTangent);
-  EXPECT_EQ(number(row[21]), event.impulseRatio);
-  EXPECT_EQ(number(row[22]), event.criticalImpulseRatio);
-  EXPECT_EQ(number(row[23]), event.deltaV);
-  EXPECT_EQ(number(row[24]), event.yawRateBefore);
-  EXPECT_EQ(number(row[25]), event.yawRateAfter);
-  EXPECT_EQ(number(row[26]), event.speedBefore);
-  EXPECT_EQ(number(row[27]), event.speedAfter);
-  EXPECT_EQ(number(row[28]), event.energyAsked);
-  EXPECT_EQ(row[29], "");
-  EXPECT_EQ(row[30], "reverse_slip");
+  constexpr double degree = std::numbers::pi / 180.0;
+  const std::vector<std::pair<std::string, std::variant<double, std::string>>> columns = {
+      {"time_s", event.time},
+      {"phase", "contact_end"},
+      {"duration_s", event.duration},
+      {"vehicle", std::string(event.vehicle)},
+      {"barrier", std::string(event.barrier)},
+      {"triangle", "1837"},
+      {"material", std::string(event.material)},
+      {"law", "energy"},
+      {"contact_x_m", event.contact.x()},
+      {"contact_y_m", event.contact.y()},
+      {"contact_z_m", event.contact.z()},
+      {"normal_x", event.normal.x()},
+      {"normal_y", event.normal.y()},
+      {"normal_z", event.normal.z()},
+      {"arm_x_m", event.arm.x()},
+      {"arm_y_m", event.arm.y()},
+      {"angle_of_attack_deg", 0.1 / degree},
+      {"angle_centre_velocity_deg", 0.2 / degree},
+      {"angle_heading_deg", 0.3 / degree},
+      {"approach_speed_mps", event.approachSpeed},
+      {"restitution", event.restitution},
+      {"friction", event.friction},
+      {"impulse_normal_Ns", event.impulseNormal},
+      {"impulse_tangent_Ns", event.impulseTangent},
+      {"impulse_ratio", event.impulseRatio},
+      {"critical_impulse_ratio", event.criticalImpulseRatio},
+      {"delta_v_mps", event.deltaV},
+      {"yaw_rate_before_rps", event.yawRateBefore},
+      {"yaw_rate_after_rps", event.yawRateAfter},
+      {"speed_before_mps", event.speedBefore},
+      {"speed_after_mps", event.speedAfter},
+      {"velocity_after_x_mps", event.velocityAfter.x()},
+      {"velocity_after_y_mps", event.velocityAfter.y()},
+      {"velocity_after_z_mps", event.velocityAfter.z()},
+      {"energy_asked", event.energyAsked},
+      {"energy_ratio", ""},  // NaN
+      {"energy_lost_J", event.energyLost},
+      {"outcome", "limited_by_friction"},
+      {"regime", "reverse_slip"}};
+  ASSERT_EQ(rows[0].size(), columns.size());
+  ASSERT_EQ(rows[1].size(), columns.size());
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const auto& [name, value] = columns[k];
+    EXPECT_EQ(rows[0][k], name);
+    if (const double* expected = std::get_if<double>(&value)) {
+      if (name.ends_with("_deg")) {
+        EXPECT_DOUBLE_EQ(number(rows[1][k]), *expected) << name;
+      } else {
+        EXPECT_EQ(number(rows[1][k]), *expected) << name;
+      }
+    } else {
+      EXPECT_EQ(rows[1][k], std::get<std::string>(value)) << name;
+    }
+  }
 }
 
 TEST(CsvExport, trajectoryReadsBackExactlyAndItsYawDoesNotJump) {
@@ -148,9 +148,9 @@ TEST(CsvExport, trajectoryReadsBackExactlyAndItsYawDoesNotJump) {
   for (int k = 0; k < count; ++k) {
     RecordedPose pose;
     pose.time = k / 30.0;
-    pose.position = {k / 7.0, -k / 11.0, 0.5};
+    pose.position = {k / 7.0, -k / 11.0, k / 19.0};
     pose.orientation = Eigen::AngleAxisd(0.1 * k, Eigen::Vector3d::UnitZ());
-    pose.velocity = {k / 13.0, 1.0 / (k + 1.0), 0.0};
+    pose.velocity = {k / 13.0, 1.0 / (k + 1.0), k / 23.0};
     pose.yawRate = 3.0 + k / 17.0;
     run.addPose(1, pose);
   }
@@ -158,18 +158,20 @@ TEST(CsvExport, trajectoryReadsBackExactlyAndItsYawDoesNotJump) {
 
   const auto rows = parseCsv(readText(folder.path() / "trajectory.csv"));
   ASSERT_EQ(rows.size(), count + 1U);
-  EXPECT_EQ(rows[0],
-            (CsvRow{"time_s", "x_m", "y_m", "yaw_rad", "vx_mps", "vy_mps", "yaw_rate_rps"}));
+  EXPECT_EQ(rows[0], (CsvRow{"time_s", "x_m", "y_m", "z_m", "yaw_rad", "vx_mps", "vy_mps", "vz_mps",
+                             "yaw_rate_rps"}));
   for (int k = 0; k < count; ++k) {
     const CsvRow& row = rows[static_cast<std::size_t>(k) + 1];
-    ASSERT_EQ(row.size(), 7U);
+    ASSERT_EQ(row.size(), 9U);
     EXPECT_EQ(number(row[0]), k / 30.0);
     EXPECT_EQ(number(row[1]), k / 7.0);
     EXPECT_EQ(number(row[2]), -k / 11.0);
-    EXPECT_NEAR(number(row[3]), 0.1 * k, 1e-9);  // three turns
-    EXPECT_EQ(number(row[4]), k / 13.0);
-    EXPECT_EQ(number(row[5]), 1.0 / (k + 1.0));
-    EXPECT_EQ(number(row[6]), 3.0 + k / 17.0);
+    EXPECT_EQ(number(row[3]), k / 19.0);
+    EXPECT_NEAR(number(row[4]), 0.1 * k, 1e-9);  // three turns
+    EXPECT_EQ(number(row[5]), k / 13.0);
+    EXPECT_EQ(number(row[6]), 1.0 / (k + 1.0));
+    EXPECT_EQ(number(row[7]), k / 23.0);
+    EXPECT_EQ(number(row[8]), 3.0 + k / 17.0);
   }
 }
 

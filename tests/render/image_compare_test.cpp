@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <random>
 
 #include "bumper/response/error.h"
 
@@ -35,25 +36,44 @@ TEST(ImageCompare, findsNothingInTheSamePicture) {
   EXPECT_EQ(result.meanDifference, 0.0);
 }
 
-TEST(ImageCompare, allowsAnEdgeToMoveByAPixelButNotByThree) {
-  const auto little = compareImages(disc(60, 40), disc(60.8, 40.3));
-  EXPECT_EQ(little.differingShare, 0.0);
-  EXPECT_GT(little.worstDifference, 100);
-  EXPECT_GT(little.meanDifference, 0.5);
-  EXPECT_GT(compareImages(disc(60, 40), disc(63, 40)).differingShare, 0.005);
+TEST(ImageCompare, seesAnEdgeMoveByAPixel) {
+  const auto result = compareImages(disc(60, 40), disc(61, 40));
+  EXPECT_FALSE(result.isSame);
+  EXPECT_GT(result.worstDifference, 100);
+  EXPECT_GT(result.meanDifference, 0.5);
 }
 
-TEST(ImageCompare, withoutReachEveryEdgeCounts) {
-  EXPECT_GT(compareImages(disc(60, 40), disc(60.8, 40.3), {.reach = 0}).differingShare, 0.005);
+// What another way of smoothing does: every pixel of the edge off by a tenth of the contrast,
+// this way or that.
+TEST(ImageCompare, doesNotSeeNoiseAlongAnEdge) {
+  const Image smooth = disc(60, 40);
+  Image noisy = smooth;
+  std::mt19937 engine(5);
+  int changed = 0;
+  for (Rgb& pixel : noisy.pixels()) {
+    if (pixel == white || pixel == black) continue;
+    const int level = std::clamp(pixel.red + (engine() % 2 == 0 ? 24 : -24), 0, 255);
+    pixel.red = pixel.green = pixel.blue = static_cast<std::uint8_t>(level);
+    ++changed;
+  }
+  EXPECT_GT(changed, 100);
+  EXPECT_TRUE(compareImages(smooth, noisy).isSame);
+  EXPECT_FALSE(compareImages(smooth, noisy, {.smoothing = 0}).isSame);
+}
+
+TEST(ImageCompare, withReachAnEdgeMayMoveByAPixelButNotByThree) {
+  constexpr ImageCompareOptions loose{.smoothing = 0, .reach = 1};
+  EXPECT_EQ(compareImages(disc(60, 40), disc(60.8, 40.3), loose).differingShare, 0.0);
+  EXPECT_GT(compareImages(disc(60, 40), disc(63, 40), loose).differingShare, 0.005);
 }
 
 TEST(ImageCompare, findsAThinLineInEitherPicture) {
   const Image plain(100, 100, white);
   Image lined = plain;
   for (int x = 0; x < 100; ++x) lined.at(x, 50) = black;
-  // The line itself; beside it each picture's white is also in the other.
-  EXPECT_NEAR(compareImages(plain, lined).differingShare, 0.01, 1e-12);
-  EXPECT_NEAR(compareImages(lined, plain).differingShare, 0.01, 1e-12);
+  // The line and, smoothed, a pixel on either side.
+  EXPECT_NEAR(compareImages(plain, lined).differingShare, 0.03, 1e-12);
+  EXPECT_NEAR(compareImages(lined, plain).differingShare, 0.03, 1e-12);
 }
 
 TEST(ImageCompare, findsASmallThingInALargePicture) {
@@ -65,6 +85,8 @@ TEST(ImageCompare, findsASmallThingInALargePicture) {
   const auto result = compareImages(plain, marked);
   EXPECT_LT(result.differingShare, 0.001);
   EXPECT_GT(result.worstTileShare, 0.1);
+  EXPECT_FALSE(result.isSame);
+  EXPECT_TRUE(compareImages(plain, marked, {.mostDifferingInTile = 1.0}).isSame);
 }
 
 TEST(ImageCompare, allowsTheToleranceInEveryChannelAndNoMore) {
@@ -93,7 +115,7 @@ TEST(ImageCompare, picturesWhereTheyDiffer) {
   const Image plain(20, 20, white);
   Image marked = plain;
   marked.at(5, 7) = black;
-  const Image difference = compareImages(plain, marked).difference;
+  const Image difference = compareImages(plain, marked, {.smoothing = 0}).difference;
   const auto red = [&](int x, int y) {
     return difference.at(x, y).red > difference.at(x, y).green + 100;
   };
@@ -106,6 +128,9 @@ TEST(ImageCompare, rejectsWhatCannotBeCompared) {
   EXPECT_THROW(compareImages(Image(4, 5), Image(5, 4)), Error);
   EXPECT_THROW(compareImages(Image(4, 4), Image(4, 4), {.tolerance = 256}), Error);
   EXPECT_THROW(compareImages(Image(4, 4), Image(4, 4), {.reach = -1}), Error);
+  EXPECT_THROW(compareImages(Image(4, 4), Image(4, 4), {.smoothing = 9}), Error);
+  EXPECT_THROW(compareImages(Image(4, 4), Image(4, 4), {.mostDiffering = 1.1}), Error);
+  EXPECT_THROW(compareImages(Image(4, 4), Image(4, 4), {.mostDifferingInTile = -0.1}), Error);
 }
 
 }  // namespace

@@ -4,8 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <map>
 #include <numbers>
 #include <set>
 #include <span>
@@ -15,6 +13,7 @@
 
 #include "bumper/response/collision_step.h"
 #include "bumper/response/impact_event.h"
+#include "csv_reader.h"
 
 /// Each preset against the data that it names as its source.
 namespace bumper::tests {
@@ -157,23 +156,9 @@ struct SmallOverlapTest {
 };
 
 std::vector<SmallOverlapTest> smallOverlapTests() {
-  std::ifstream file(std::string(BUMPER_TEST_DATA) + "/small_overlap_tests.csv");
-  EXPECT_TRUE(file.good());
-  std::string line;
-  std::getline(file, line);
-  std::vector<std::string> header;
-  std::istringstream names(line);
-  for (std::string cell; std::getline(names, cell, ',');) header.push_back(cell);
-
   std::vector<SmallOverlapTest> tests;
-  while (std::getline(file, line)) {
-    std::map<std::string, std::string> row;
-    std::istringstream cells(line);
-    std::string cell;
-    // The last column, the source, is quoted and not needed.
-    for (std::size_t i = 0; i + 1 < header.size() && std::getline(cells, cell, ','); ++i) {
-      row[header[i]] = cell;
-    }
+  for (const testing::CsvRecord& row :
+       testing::readCsv(std::string(BUMPER_TEST_DATA) + "/small_overlap_tests.csv")) {
     const auto number = [&row](const char* column) { return std::stod(row.at(column)); };
     SmallOverlapTest test;
     test.id = row.at("id");

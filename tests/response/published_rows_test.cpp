@@ -1,14 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <map>
 #include <numbers>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "bumper/response/restitution_law.h"
+#include "csv_reader.h"
 
 /// Published crash tests and their published planar-impact analyses (tests/data names the sources).
 namespace bumper::tests {
@@ -16,38 +14,10 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
-using Row = std::map<std::string, std::string>;
-
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> result(1);
-  bool quoted = false;
-  for (const char c : line) {
-    if (c == '"') {
-      quoted = !quoted;
-    } else if (c == ',' && !quoted) {
-      result.emplace_back();
-    } else {
-      result.back() += c;
-    }
-  }
-  return result;
-}
+using Row = testing::CsvRecord;
 
 std::vector<Row> table(const std::string& name) {
-  std::ifstream file(std::string(BUMPER_TEST_DATA) + "/" + name);
-  EXPECT_TRUE(file.good()) << name;
-  std::string line;
-  std::getline(file, line);
-  const std::vector<std::string> header = cells(line);
-  std::vector<Row> rows;
-  while (std::getline(file, line)) {
-    const std::vector<std::string> values = cells(line);
-    EXPECT_EQ(values.size(), header.size()) << line;
-    Row row;
-    for (std::size_t i = 0; i < header.size() && i < values.size(); ++i) row[header[i]] = values[i];
-    rows.push_back(row);
-  }
-  return rows;
+  return testing::readCsv(std::string(BUMPER_TEST_DATA) + "/" + name);
 }
 
 double number(const Row& row, const char* column) { return std::stod(row.at(column)); }

@@ -7,9 +7,9 @@
 
 namespace bumper {
 
-/// Writes `events.csv`, every impact of the recording, and `trajectory.csv`, the poses of the
-/// vehicle with the given index (without vehicles the header alone), into a folder, which is made
-/// if it does not exist. Files of these names are replaced.
+/// Writes `events.csv`, everything of every impact of the recording, and `trajectory.csv`, the
+/// poses of the vehicle with the given index (without vehicles the header alone), into a folder,
+/// which is made if it does not exist. Files of these names are replaced.
 ///
 /// World frame and SI units unless a column's name says otherwise: arm_x_m and arm_y_m are in the
 /// vehicle's frame, angle_of_attack_deg is by the contact point's velocity, yaw_rad is the heading

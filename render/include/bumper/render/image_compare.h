@@ -4,18 +4,26 @@
 
 namespace bumper {
 
+/// When two pictures count as the same. The defaults see an edge that moved by a pixel, a car that
+/// turned by as much at its ends, or a missing mark, but not what a processor smooths otherwise.
 struct ImageCompareOptions {
-  /// Channel values, 0 to 255, by which a pixel may leave the range of its neighbourhood.
+  /// Channel values, 0 to 255, by which a pixel may differ.
   int tolerance = 12;
-  /// Pixels, 0 to 8, by which an edge may be shifted or smoothed otherwise.
-  int reach = 1;
+  /// Pixels, 0 to 8: what is compared is the mean of the pixels so far around, which takes out
+  /// noise along edges but not their place.
+  int smoothing = 1;
+  /// Pixels, 0 to 8, by which an edge may be shifted: a pixel may have any value that the other
+  /// picture takes so near to it. For pictures of two drivers that place edges differently.
+  int reach = 0;
+  double mostDiffering = 0.001;       ///< share of differing pixels, 0 to 1
+  double mostDifferingInTile = 0.02;  ///< the same in any tile of 32 × 32 pixels
 };
 
-/// How two pictures of the same size differ. Two pixels differ if a channel of the one lies outside
-/// the range that the other picture takes within `reach` pixels of it, by more than `tolerance`, or
-/// the other way round: an edge drawn a pixel further or with other smoothing is no difference, a
-/// line, a letter or a mark that is missing is one.
+/// How two pictures of the same size differ. Two pixels differ if a channel of the one, smoothed,
+/// lies outside the range that the other picture, smoothed, takes within `reach` pixels of it, by
+/// more than `tolerance`, or the other way round.
 struct ImageComparison {
+  bool isSame = false;          ///< both shares are within the options' limits
   double differingShare = 0.0;  ///< of all pixels, 0 to 1
   /// The largest share of differing pixels in any tile of 32 × 32 pixels: what is small in the
   /// picture shows here.

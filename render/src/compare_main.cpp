@@ -1,0 +1,82 @@
+// Compares two PNG files and says how they differ.
+//
+//   bumper-compare actual.png golden.png --diff difference.png
+//
+// Ends with 0 if they count as the same, 1 if they differ, 2 if a file cannot be read or written or
+// an argument is wrong.
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "bumper/render/image.h"
+#include "bumper/render/image_compare.h"
+
+namespace {
+
+using namespace bumper;
+
+enum Outcome { same = 0, different = 1, unreadable = 2 };
+
+struct Order {
+  std::string actual;
+  std::string golden;
+  std::string difference;
+  ImageCompareOptions compare;
+};
+
+int compare(const Order& order) {
+  const Image actual = readPng(order.actual);
+  const Image golden = readPng(order.golden);
+  if (actual.width() != golden.width() || actual.height() != golden.height()) {
+    std::printf("different: %d x %d pixels instead of %d x %d\n", actual.width(), actual.height(),
+                golden.width(), golden.height());
+    return different;
+  }
+  const ImageComparison comparison = compareImages(golden, actual, order.compare);
+  if (!order.difference.empty()) writePng(comparison.difference, order.difference);
+  std::printf(
+      "%s\n"
+      "differing pixels  %8.4f %%  of all, allowed %g %%\n"
+      "                  %8.4f %%  in the worst tile, allowed %g %%\n"
+      "worst difference  %8d    of 255\n"
+      "mean difference   %8.4f    of 255\n",
+      comparison.isSame ? "same" : "different", 100.0 * comparison.differingShare,
+      100.0 * order.compare.mostDiffering, 100.0 * comparison.worstTileShare,
+      100.0 * order.compare.mostDifferingInTile, comparison.worstDifference,
+      comparison.meanDifference);
+  return comparison.isSame ? same : different;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  Order order;
+  CLI::App app(
+      "Compares two pictures of the same size, edges' smoothing aside.\n"
+      "Ends with 0 if they are the same, 1 if they differ, 2 if one cannot be read.");
+  app.option_defaults()->always_capture_default();
+  app.add_option("actual", order.actual, "PNG file")->required();
+  app.add_option("golden", order.golden, "PNG file that it should be like")->required();
+  app.add_option("--diff", order.difference,
+                 "PNG file to write: what differs in red on the golden picture in grey");
+  app.add_option("--tolerance", order.compare.tolerance,
+                 "channel values by which a pixel may differ, 0 to 255");
+  app.add_option("--smoothing", order.compare.smoothing,
+                 "pixels around each of which the mean is compared, 0 to 8");
+  app.add_option("--reach", order.compare.reach, "pixels by which an edge may be shifted, 0 to 8");
+  app.add_option("--most-differing", order.compare.mostDiffering,
+                 "share of differing pixels that is allowed, 0 to 1");
+  app.add_option("--most-differing-in-tile", order.compare.mostDifferingInTile,
+                 "the same for any 32 x 32 pixels");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? same : unreadable;
+  }
+  return compare(order);
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "bumper-compare: %s\n", error.what());
+  return unreadable;
+}

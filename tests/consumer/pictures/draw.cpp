@@ -1,0 +1,8 @@
+#include <bumper/render/image.h>
+
+#include "drawing.h"
+
+int main(int, char** argv) {
+  bumper::writePng(drawRun(), argv[1]);
+  return 0;
+}
