@@ -289,7 +289,7 @@ class Overlay {
     const DrawnImpact* worst = hardest(run_);
     for (const DrawnImpact& impact : run_.impacts) {
       const auto point = camera_.pixel(impact.event.contact);
-      if (!point) continue;
+      if (!point || !impact.shown) continue;
       const double share = impact.event.deltaV / std::max(worst->event.deltaV, fullArrowDeltaV);
       marks.push_back(placeMark(impact, *point, share));
     }

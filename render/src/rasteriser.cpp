@@ -91,8 +91,7 @@ void main() {}
 /// One drawing. The context's end frees every object made in it.
 class Rasteriser {
  public:
-  explicit Rasteriser(const Picture& picture)
-      : picture_(picture), context_(makeOffscreenContext()), gl_(*context_) {}
+  Rasteriser(const Picture& picture, OffscreenContext& context) : picture_(picture), gl_(context) {}
 
   Image draw() {
     checkSize();
@@ -348,12 +347,14 @@ class Rasteriser {
   }
 
   const Picture& picture_;
-  std::unique_ptr<OffscreenContext> context_;
   GlFunctions gl_;
 };
 
 }  // namespace
 
-Image rasterise(const Picture& picture) { return Rasteriser(picture).draw(); }
+Image rasterise(const Picture& picture, OffscreenContext& context) {
+  const ContextInUse use(context);
+  return Rasteriser(picture, context).draw();
+}
 
 }  // namespace bumper::drawing

@@ -123,10 +123,9 @@ WorldPainter::WorldPainter(const Camera& camera, Picture& picture)
   // A multiple of the grid, so that its lines stand at round world coordinates.
   picture_.origin = (camera.focus / picture_.gridSpacing).array().round() * picture_.gridSpacing;
   if (camera.perspective) {
-    const double distance = (camera.eye - camera.focus).norm();
     picture_.hazeColour = horizonColour;
-    picture_.hazeStart = 1.6 * distance;
-    picture_.hazeEnd = 9.0 * distance + 200.0;
+    picture_.hazeStart = camera.hazeStart;
+    picture_.hazeEnd = camera.hazeEnd;
   }
   setSun();
   addBackground();
@@ -155,7 +154,8 @@ void WorldPainter::addBackground() {
   std::vector<Stop> stops = {{-1.0, nowhereColour}, {1.0, nowhereColour}};
   if (camera_.perspective) {
     // The horizon is where horizontal directions end.
-    const Vector3d ahead = Vector3d(-camera_.back().x(), -camera_.back().y(), 0.0).normalized();
+    const Vector3d ahead =
+        Vector3d(-camera_.back().x(), -camera_.back().y(), 0.0).stableNormalized();
     const Vector4d far = camera_.projection *
                          (camera_.axes * ahead).homogeneous().cwiseProduct(Vector4d(1, 1, 1, 0));
     const double horizon = far.y() / far.w();
