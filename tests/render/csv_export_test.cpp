@@ -17,6 +17,7 @@
 #include "csv_reader.h"
 #include "synthetic_run.h"
 #include "temporary_folder.h"
+#include "text_file.h"
 
 namespace bumper {
 namespace {

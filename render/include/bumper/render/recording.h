@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bumper/render/run_description.h"
 #include "bumper/response/impact_event.h"
 #include "bumper/response/vehicle_parameters.h"
 
@@ -45,6 +46,7 @@ class RecordedImpact {
 struct RecordedVehicle {
   std::string name;
   VehicleParameters parameters;
+  RunParameters settings;           ///< what else the application states of it
   std::vector<RecordedPose> poses;  ///< in order of time
 };
 
@@ -59,7 +61,8 @@ class Recording {
  public:
   /// Returns the vehicle's index. Throws Error if the name is taken or a parameter is not finite
   /// and positive.
-  std::size_t addVehicle(std::string name, const VehicleParameters& parameters);
+  std::size_t addVehicle(std::string name, const VehicleParameters& parameters,
+                         RunParameters settings = {});
 
   /// Adds a pose of the vehicle with that index. Throws Error if there is no such vehicle, a number
   /// is not finite, the orientation is not of unit length to 0.001 (it is then normalised), or the
@@ -79,6 +82,7 @@ class Recording {
  private:
   std::vector<RecordedVehicle> vehicles_;
   std::vector<RecordedImpact> impacts_;
+  std::vector<std::optional<double>> lastImpacts_;  ///< of each vehicle, s
 };
 
 }  // namespace bumper

@@ -1,16 +1,12 @@
 #include "csv_reader.h"
 
-#include <fstream>
-#include <iterator>
+#include <stdexcept>
+
+#include "text_file.h"
 
 namespace bumper::testing {
 
-std::string readText(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-std::vector<CsvRow> parseCsv(const std::string& text) {
+std::vector<CsvRow> parseCsv(std::string_view text) {
   std::vector<CsvRow> rows;
   CsvRow row;
   std::string field;
@@ -41,6 +37,21 @@ std::vector<CsvRow> parseCsv(const std::string& text) {
     }
   }
   return rows;
+}
+
+std::vector<CsvRecord> readCsv(const std::filesystem::path& file) {
+  const std::vector<CsvRow> rows = parseCsv(readText(file));
+  std::vector<CsvRecord> records;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    if (rows[k].size() != rows[0].size()) {
+      throw std::runtime_error(file.string() + ", row " + std::to_string(k + 1) + " has " +
+                               std::to_string(rows[k].size()) + " fields instead of " +
+                               std::to_string(rows[0].size()));
+    }
+    CsvRecord& record = records.emplace_back();
+    for (std::size_t i = 0; i < rows[0].size(); ++i) record[rows[0][i]] = rows[k][i];
+  }
+  return records;
 }
 
 }  // namespace bumper::testing

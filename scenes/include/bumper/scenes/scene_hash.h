@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+
+#include "bumper/scenes/scene.h"
+
+namespace bumper {
+
+/// A number that tells whether two scenes have the same geometry: FNV-1a of 64 bits over, each in
+/// little-endian byte order, the numbers of vertices and of triangles (64 bits), the vertices'
+/// coordinates x, y, z (IEEE 754 doubles, −0 as 0), and of each triangle its three corners and its
+/// mesh (32 bits each). Names, materials and colours do not count. Not meant against forgery.
+std::uint64_t contentHash(const Scene& scene);
+
+}  // namespace bumper
