@@ -1,6 +1,6 @@
 // Drives a car through any mesh file and lets it hit what stands in its way.
 //
-//   drive aalborg.acc --up y --start 200,300 --heading 15 --speed 30 --out out/drive
+//   bumper-drive aalborg.acc --up y --start 200,300 --heading 15 --speed 30 --out out/drive
 //
 // The whole file becomes one ODE trimesh, road and walls in one, as a game would load it: the
 // wheels stand on it, Bumper answers for its walls, ODE's contact joints for the rest.
@@ -201,6 +201,17 @@ Scene load(const Order& order) {
   }
 }
 
+// So that the recording finds its scene again when both are moved together.
+RunDescription describe(const Order& order, const Scene& scene) {
+  RunDescription run{.scene = referenceTo(scene)};
+  run.scene.file =
+      std::filesystem::proximate(std::filesystem::absolute(order.scene), order.out).string();
+  run.scene.up = order.up;
+  run.scene.scale = order.scale;
+  run.parameters = {{"law", order.law}, {"step_s", order.step}};
+  return run;
+}
+
 int drive(int argc, char** argv) {
   Order order;
   CLI::App app("Drives a car through a mesh file and lets it hit what stands in its way.");
@@ -236,7 +247,8 @@ int drive(int argc, char** argv) {
   const Scene scene = load(order);
   const Recording recording = run(order, scene);
   printImpacts(recording);
-  writeResults(order.out, scene, recording, order.scene.filename().string());
+  writeResults(order.out, scene, recording, order.scene.filename().string(),
+               describe(order, scene));
   dCloseODE();
   return 0;
 }
@@ -247,7 +259,7 @@ int main(int argc, char** argv) {
   try {
     return drive(argc, argv);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "drive: %s\n", error.what());
+    std::fprintf(stderr, "bumper-drive: %s\n", error.what());
     return 1;
   }
 }
