@@ -1,6 +1,7 @@
 #include "bumper/render/snapshot_renderer.h"
 
-#include <utility>
+#include <optional>
+#include <string>
 
 #include "camera.h"
 #include "offscreen_context.h"
@@ -8,6 +9,8 @@
 #include "picture.h"
 #include "rasteriser.h"
 #include "run_excerpt.h"
+#include "scene_model.h"
+#include "scribe.h"
 #include "sight_lines.h"
 #include "snapshot_input.h"
 #include "world_painter.h"
@@ -16,12 +19,17 @@ namespace bumper {
 
 class SnapshotRenderer::Parts {
  public:
-  Parts(const Scene& drawn, OffscreenBackend backend)
-      : scene(drawn), sight(drawn), context(drawing::makeOffscreenContext(backend)) {}
+  Parts(const Scene& scene, OffscreenBackend backend)
+      : name(scene.name), sight(scene), context(drawing::makeOffscreenContext(backend)) {
+    const drawing::ContextInUse use(*context);
+    rasteriser.emplace(*context, drawing::sceneModel(scene));
+  }
 
-  Scene scene;
+  std::string name;  ///< of the scene
   drawing::SightLines sight;
   std::unique_ptr<drawing::OffscreenContext> context;
+  std::optional<drawing::Rasteriser> rasteriser;
+  drawing::Scribe scribe;
 };
 
 SnapshotRenderer::SnapshotRenderer(const Scene& scene, OffscreenBackend backend) {
@@ -42,15 +50,17 @@ Image SnapshotRenderer::draw(const Recording& recording, const SnapshotOptions& 
 
   drawing::Picture picture;
   drawing::WorldPainter painter(camera, picture);
-  painter.addScene(parts_->scene);
   if (options.showPath) {
     for (std::size_t v = 0; v < run.trails.size(); ++v)
       painter.addPath(recording.vehicles()[v], run.trails[v], drawing::legendEnd(run));
   }
-  if (options.showVehicles) painter.addVehicles(recording, run);
-  drawing::addOverlay(camera, run, options,
-                      options.title.empty() ? parts_->scene.name : options.title, picture);
-  return drawing::rasterise(picture, *parts_->context);
+  if (options.showVehicles) painter.addVehicles(recording, run, options);
+  drawing::addOverlay(camera, run, options, options.title.empty() ? parts_->name : options.title,
+                      picture);
+  const drawing::ContextInUse use(*parts_->context);
+  Image image = parts_->rasteriser->draw(picture);
+  parts_->scribe.write(picture.writings, image);
+  return image;
 }
 
 std::optional<Eigen::Vector2d> SnapshotRenderer::project(const Recording& recording,

@@ -88,10 +88,12 @@ struct SnapshotOptions {
   std::map<std::string, std::shared_ptr<const Scene>> vehicleMeshes;
   std::string title;  ///< empty: the scene's name
   bool showVehicles = true;
-  bool showPath = true;      ///< a ribbon coloured by speed, with its legend
-  bool showImpacts = true;   ///< marks; the strong with number, the wall's normal and Δv
-  bool showScaleBar = true;  ///< top view only
-  bool showTitle = true;     ///< with the span of time, the hardest impact and the marks' legend
+  bool showPath = true;     ///< a ribbon coloured by speed, with its legend
+  bool showImpacts = true;  ///< marks; the strong with number, the wall's normal and Δv
+  bool showTimes = true;    ///< beside vehicles where there is room; not with a moment
+  /// With the world's axes; in other views than the top, the axes and the spacing of the grid.
+  bool showScaleBar = true;
+  bool showTitle = true;  ///< with the span of time, the hardest impact and the marks' legend
 };
 
 /// Draws a scene and what happened in it. Impacts are numbered from 1 in the recording's order. The
