@@ -11,7 +11,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <numbers>
 #include <sstream>
@@ -23,6 +22,7 @@
 #include "bumper/scenes/scene_files.h"
 #include "ray_suspension.h"
 #include "results.h"
+#include "tool.h"
 #include "yaw_plane_car.h"
 
 namespace {
@@ -212,9 +212,22 @@ RunDescription describe(const Order& order, const Scene& scene) {
   return run;
 }
 
-int drive(int argc, char** argv) {
+void drive(const Order& order) {
+  dInitODE2(0);
+  const Scene scene = load(order);
+  const Recording recording = run(order, scene);
+  printImpacts(recording);
+  writeResults(order.out, scene, recording, order.scene.filename().string(),
+               describe(order, scene));
+  dCloseODE();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   Order order;
-  CLI::App app("Drives a car through a mesh file and lets it hit what stands in its way.");
+  CLI::App app("Drives a car through a mesh file and lets it hit what stands in its way.",
+               "bumper-drive");
   app.add_option("scene", order.scene, "mesh file, any format that assimp reads")->required();
   app.add_option("--up", order.up, "the file's up axis, for formats that state none")
       ->check(CLI::IsMember({"y", "z"}));
@@ -241,25 +254,6 @@ int drive(int argc, char** argv) {
       ->check(CLI::IsMember({"restitution", "energy"}))
       ->capture_default_str();
   app.add_option("--out", order.out, "folder for tables and pictures")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-
-  dInitODE2(0);
-  const Scene scene = load(order);
-  const Recording recording = run(order, scene);
-  printImpacts(recording);
-  writeResults(order.out, scene, recording, order.scene.filename().string(),
-               describe(order, scene));
-  dCloseODE();
-  return 0;
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  try {
-    return drive(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bumper-drive: %s\n", error.what());
-    return 1;
-  }
+  app.footer("\n" + exitCodes());
+  return runTool(app, argc, argv, [&] { drive(order); });
 }

@@ -2,7 +2,6 @@
 
 #include <cstdio>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "bumper/response/error.h"
@@ -49,10 +48,7 @@ void plot(Order& order) {
     run.recording = readRecordedPart(order.run, run.description);
   if (!order.vehicle.empty()) order.plot.vehicle = vehicleIndex(run.recording, order.vehicle);
 
-  std::error_code failure;
-  std::filesystem::create_directories(order.folder, failure);
-  if (failure)
-    throw Error("cannot make the folder " + order.folder.string() + ": " + failure.message());
+  makeFolder(order.folder);
   for (const std::string& name : order.only) {
     const std::filesystem::path png = order.folder / (name + ".png");
     if (name == "yaw_rate") plotYawRate(run.recording, order.plot, png);

@@ -1,10 +1,14 @@
 // Makes pictures, films, 3D files and tables of a recording: bumper-replay --help.
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "bumper/render/impact_close_up.h"
 #include "bumper/render/contact_sheet.h"
 #include "bumper/render/csv_export.h"
 #include "bumper/render/glb_export.h"
@@ -23,13 +27,14 @@ using namespace bumper::examples;
 
 constexpr const char* manual = R"(Commands begin with the recording and end with what is made:
 
-  bumper-replay info    run.jsonl
-  bumper-replay picture run.jsonl picture.png --view three_quarter
-  bumper-replay sheet   run.jsonl sheet.png
-  bumper-replay video   run.jsonl replay.mp4 --slow-motion 8
-  bumper-replay frames  run.jsonl frames/ --fps 60 --from 1.2 --to 1.8
-  bumper-replay glb     run.jsonl replay.glb
-  bumper-replay csv     run.jsonl tables/
+  bumper-replay info     run.jsonl
+  bumper-replay picture  run.jsonl picture.png --view three_quarter
+  bumper-replay sheet    run.jsonl sheet.png
+  bumper-replay closeups run.jsonl closeups/
+  bumper-replay video    run.jsonl replay.mp4 --slow-motion 8
+  bumper-replay frames   run.jsonl frames/ --fps 60 --from 1.2 --to 1.8
+  bumper-replay glb      run.jsonl replay.glb
+  bumper-replay csv      run.jsonl tables/
 
 `bumper-replay COMMAND --help` lists a command's options.
 
@@ -144,6 +149,20 @@ void makeSheet(Order& order) {
   writePng(contactSheet(run.scene, run.recording, order.sheet), order.result);
 }
 
+void makeCloseUps(Order& order) {
+  const RecordedRun run = readRecordedRun(order.run);
+  makeFolder(order.result);
+  std::vector<std::pair<double, std::size_t>> hardest;
+  for (std::size_t k = 0; k < run.recording.impacts().size(); ++k)
+    hardest.emplace_back(-run.recording.impacts()[k].event().deltaV, k);
+  std::sort(hardest.begin(), hardest.end());
+  if (hardest.size() > order.sheet.impacts) hardest.resize(order.sheet.impacts);
+  for (const auto& [unused, k] : hardest) {
+    const std::filesystem::path png = order.result / ("impact_" + std::to_string(k + 1) + ".png");
+    writePng(impactCloseUp(run.scene, run.recording, k), png);
+  }
+}
+
 void makeVideo(Order& order) {
   const RecordedRun run = readRecordedRun(order.run);
   complete(order, run.recording);
@@ -191,8 +210,12 @@ int main(int argc, char** argv) {
   addPictureOptions(*picture, order);
   CLI::App* sheet =
       command("sheet", "one picture with the moments around each impact", "PNG file", makeSheet);
-  sheet->add_option("--impacts", order.sheet.impacts, "at most so many, the hardest")
-      ->capture_default_str();
+  CLI::App* closeUps =
+      command("closeups", "a diagram of each impact, impact_<number>.png", "folder", makeCloseUps);
+  for (CLI::App* each : {sheet, closeUps}) {
+    each->add_option("--impacts", order.sheet.impacts, "at most so many, the hardest")
+        ->capture_default_str();
+  }
   sheet->add_option("--instants", order.sheet.instants, "s from the impact, one picture each")
       ->delimiter(',')
       ->capture_default_str();

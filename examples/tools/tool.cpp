@@ -4,7 +4,10 @@
 
 #include <cstdio>
 #include <exception>
+#include <system_error>
 #include <utility>
+
+#include "bumper/response/error.h"
 
 namespace bumper::examples {
 
@@ -23,6 +26,12 @@ int runTool(CLI::App& app, int argc, char** argv, const std::function<void()>& j
 
 std::string exitCodes() {
   return "Exit codes: 0 done, 1 failed (the reason is on standard error), 2 wrong command line.";
+}
+
+void makeFolder(const std::filesystem::path& folder) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure) throw Error("cannot make the folder " + folder.string() + ": " + failure.message());
 }
 
 ProgressLine::ProgressLine(std::string work)

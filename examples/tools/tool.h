@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -13,6 +14,9 @@ int runTool(CLI::App& app, int argc, char** argv, const std::function<void()>& j
 
 /// The end of a tool's --help.
 std::string exitCodes();
+
+/// Makes a folder for results unless it exists. Throws Error, naming it, if that fails.
+void makeFolder(const std::filesystem::path& folder);
 
 /// Tells on standard error how far a long work is, in one line on a terminal, else in quarters.
 class ProgressLine {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -14,9 +15,10 @@ namespace bumper {
 
 namespace {
 
-constexpr int gap = 12;  ///< pixels around every picture
-constexpr int captionScale = 2;
-constexpr int captionHeight = 26;  ///< pixels
+constexpr int gap = 12;              ///< pixels around every picture
+constexpr double letterSize = 17.0;  ///< of the em, pixels
+constexpr int captionHeight = 28;    ///< pixels
+constexpr int baselineBelow = 19;    ///< pixels below a caption's upper edge
 constexpr Rgb paper{250, 250, 250};
 constexpr Rgb nothing{228, 230, 232};
 constexpr Rgb ink{25, 28, 32};
@@ -72,32 +74,47 @@ void place(Image& sheet, const Image& picture, int left, int top) {
     std::copy_n(&picture.at(0, y), picture.width(), &sheet.at(left, top + y));
 }
 
-void write(Image& sheet, const std::string& line, int left, int top, Rgb colour) {
-  for (const Eigen::AlignedBox2d& box : drawing::textBoxes(line)) {
-    const auto pixel = [](double units) {
-      return static_cast<int>(std::lround(captionScale * units));
-    };
-    fill(sheet, left + pixel(box.min().x()), top + pixel(box.min().y()), pixel(box.sizes().x()),
-         pixel(box.sizes().y()), colour);
+/// With its baseline's left end there.
+void write(Image& sheet, const std::string& line, int left, int baseline, Rgb colour) {
+  double pen = left;
+  for (const char32_t letter : drawing::lettersOf(line)) {
+    const int column = static_cast<int>(std::floor(pen));
+    const drawing::Glyph glyph = drawing::glyphOf(letter, letterSize, pen - column);
+    for (int y = 0; y < glyph.height; ++y) {
+      for (int x = 0; x < glyph.width; ++x) {
+        const int toX = column + glyph.left + x;
+        const int toY = baseline + glyph.top + y;
+        if (toX < 0 || toX >= sheet.width() || toY < 0 || toY >= sheet.height()) continue;
+        const int share = glyph.coverage[static_cast<std::size_t>(y * glyph.width + x)];
+        const auto mix = [&](std::uint8_t& below, std::uint8_t above) {
+          below = static_cast<std::uint8_t>((below * (255 - share) + above * share) / 255);
+        };
+        Rgb& pixel = sheet.at(toX, toY);
+        mix(pixel.red, colour.red);
+        mix(pixel.green, colour.green);
+        mix(pixel.blue, colour.blue);
+      }
+    }
+    pen += drawing::advanceOf(letter) * letterSize / drawing::emHeight;
   }
 }
 
 std::string headingOf(const NumberedImpact& impact) {
   const ImpactEvent& event = impact.event;
   std::string text = "Impact " + std::to_string(impact.number) + " at " +
-                     drawing::fixed(event.time, 3) + " s: dv " + drawing::fixed(event.deltaV, 1) +
+                     drawing::fixed(event.time, 3) + " s: Δv " + drawing::fixed(event.deltaV, 1) +
                      " m/s, closing at " + drawing::fixed(event.approachSpeed, 1) + " m/s, speed " +
                      drawing::fixed(event.speedBefore, 1) + " to " +
                      drawing::fixed(event.speedAfter, 1) + " m/s, yaw rate " +
                      drawing::fixed(event.yawRateBefore * degrees, 0) + " to " +
-                     drawing::fixed(event.yawRateAfter * degrees, 0) + " deg/s";
+                     drawing::fixed(event.yawRateAfter * degrees, 0) + "°/s";
   const std::string_view wall = event.material.empty() ? event.barrier : event.material;
   if (!wall.empty()) text += ", " + std::string(wall);
   return text;
 }
 
 std::string captionOf(double offset) {
-  if (offset == 0.0) return "impact";
+  if (offset == 0.0) return "at the impact";
   std::string text = drawing::fixed(offset, 2) + " s";
   if (offset > 0.0) text.insert(text.begin(), '+');
   return text;
@@ -152,9 +169,9 @@ Image contactSheet(const Scene& scene, const Recording& recording,
 
   int top = gap + overview + gap;
   for (const NumberedImpact& impact : impacts) {
-    write(sheet, headingOf(impact), gap, top, ink);
+    write(sheet, headingOf(impact), gap, top + baselineBelow, ink);
     const int pictures = top + captionHeight;
-    const int captions = pictures + options.pictureHeight + 4;
+    const int captions = pictures + options.pictureHeight + baselineBelow;
     top += rowHeight;
     const RecordedVehicle* vehicle = vehicleOf(recording, impact.event);
     if (vehicle == nullptr || vehicle->poses.empty()) continue;

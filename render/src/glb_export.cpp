@@ -20,7 +20,6 @@
 #include "run_excerpt.h"
 #include "speed_colours.h"
 #include "vehicle_shape.h"
-#include "world_painter.h"
 
 namespace bumper {
 
