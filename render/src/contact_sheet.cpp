@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
-#include <utility>
+#include <vector>
 
 #include "bumper/render/snapshot_renderer.h"
 #include "bumper/response/error.h"
@@ -23,6 +23,8 @@ constexpr Rgb paper{250, 250, 250};
 constexpr Rgb nothing{228, 230, 232};
 constexpr Rgb ink{25, 28, 32};
 constexpr Rgb softInk{92, 98, 106};
+constexpr double sameRow = 0.3;          ///< s
+constexpr std::size_t mostHeadings = 6;  ///< of a row, its hardest impacts
 constexpr double degrees = 180.0 / std::numbers::pi;
 
 void require(double value, double low, double high, const char* name) {
@@ -49,17 +51,41 @@ struct NumberedImpact {
   ImpactEvent event;
 };
 
-/// The hardest, in the order of time.
-std::vector<NumberedImpact> chosenImpacts(const Recording& recording, std::size_t most) {
+/// Impacts that one row of pictures shows, in the order of time.
+using Row = std::vector<NumberedImpact>;
+
+const ImpactEvent& hardestOf(const Row& row) {
+  return std::ranges::max_element(row, {},
+                                  [](const NumberedImpact& impact) { return impact.event.deltaV; })
+      ->event;
+}
+
+/// The hardest impacts; one that comes soon after or before a harder one joins its row.
+std::vector<Row> rowsOf(const Recording& recording, std::size_t most) {
   std::vector<NumberedImpact> impacts;
   for (const RecordedImpact& impact : recording.impacts())
     impacts.push_back({impacts.size() + 1, impact.event()});
   std::ranges::stable_sort(impacts, std::ranges::greater{},
                            [](const NumberedImpact& impact) { return impact.event.deltaV; });
-  if (impacts.size() > most) impacts.resize(most);
-  std::ranges::stable_sort(impacts, {},
-                           [](const NumberedImpact& impact) { return impact.event.time; });
-  return impacts;
+  std::vector<Row> rows;
+  for (const NumberedImpact& impact : impacts) {
+    const auto joined = std::ranges::find_if(rows, [&](const Row& row) {
+      const ImpactEvent& first = row.front().event;
+      return first.vehicle == impact.event.vehicle &&
+             std::abs(first.time - impact.event.time) <= sameRow;
+    });
+    if (joined != rows.end())
+      joined->push_back(impact);
+    else if (rows.size() < most)
+      rows.push_back({impact});
+  }
+  const auto time = [](const NumberedImpact& impact) { return impact.event.time; };
+  for (Row& row : rows) {
+    if (row.size() > mostHeadings) row.resize(mostHeadings);
+    std::ranges::stable_sort(row, {}, time);
+  }
+  std::ranges::stable_sort(rows, {}, [&](const Row& row) { return time(row.front()); });
+  return rows;
 }
 
 void fill(Image& sheet, int left, int top, int width, int height, Rgb colour) {
@@ -126,26 +152,69 @@ const RecordedVehicle* vehicleOf(const Recording& recording, const ImpactEvent& 
   return found == vehicles.end() ? nullptr : &*found;
 }
 
-/// From the open side of the wall, 35° off its normal to where the vehicle came from.
+/// From the open side of the wall, 25° off its normal to where the vehicle came from; the vehicle's
+/// places at all the instants in sight.
 SnapshotOptions viewOf(const ImpactEvent& event, const RecordedVehicle& vehicle,
-                       const ContactSheetOptions& options) {
+                       const std::vector<double>& times, const ContactSheetOptions& options) {
   SnapshotOptions picture;
   picture.width = options.pictureWidth;
   picture.height = options.pictureHeight;
   picture.view = SnapshotView::orbit;
-  picture.orbit.centre = event.contact;
-  double side = 1.0;
-  if (const auto before = poseAt(vehicle, event.time)) {
-    const Eigen::Vector3d tangent = Eigen::Vector3d::UnitZ().cross(event.normal);
-    if (tangent.dot(before->velocity) > 0.0) side = -1.0;
-  }
-  picture.orbit.angle = std::atan2(event.normal.y(), event.normal.x()) * degrees + side * 35.0;
+  Eigen::AlignedBox3d places(event.contact);
+  for (const double time : times) places.extend(poseAt(vehicle, time)->position);
+  picture.orbit.centre = places.center();
+  const double length = vehicle.parameters.massCentreToFront + vehicle.parameters.massCentreToRear;
+  constexpr double halfWidth = 0.37;  // of the view, over the distance
+  picture.orbit.distance = std::clamp((0.5 * places.diagonal().norm() + 0.6 * length) / halfWidth,
+                                      4.2 * length, 9.0 * length);
+  const auto now = poseAt(vehicle, event.time);
+  const Eigen::Vector3d tangent = Eigen::Vector3d::UnitZ().cross(event.normal);
+  const double side = now && tangent.dot(now->velocity) > 0.0 ? -1.0 : 1.0;
+  picture.orbit.angle = std::atan2(event.normal.y(), event.normal.x()) * degrees + side * 25.0;
   picture.orbit.elevation = 42.0;
-  picture.orbit.distance =
-      4.2 * (vehicle.parameters.massCentreToFront + vehicle.parameters.massCentreToRear);
   picture.showTitle = false;
   picture.showPath = false;
+  picture.showScaleBar = false;
   return picture;
+}
+
+/// The earlier instants at which the vehicle was clear of where it is now, and the end.
+std::vector<double> ghostsAt(double now, const RecordedVehicle& vehicle,
+                             const std::vector<double>& times) {
+  const double length = vehicle.parameters.massCentreToFront + vehicle.parameters.massCentreToRear;
+  std::vector<double> ghosts;
+  for (const double time : times) {
+    if (time >= now) break;
+    const Eigen::Vector3d way = poseAt(vehicle, now)->position - poseAt(vehicle, time)->position;
+    if (way.norm() > 0.6 * length) ghosts.push_back(time);
+  }
+  if (!ghosts.empty()) ghosts.push_back(times.back());
+  return ghosts;
+}
+
+/// A row's pictures with their captions; `top` is the pictures' upper edge.
+void drawPictures(Image& sheet, int top, const Row& row, const RecordedVehicle& vehicle,
+                  const Recording& recording, const ContactSheetOptions& options,
+                  SnapshotRenderer& renderer) {
+  const ImpactEvent& event = hardestOf(row);
+  const auto isRecorded = [&](double time) { return poseAt(vehicle, time).has_value(); };
+  std::vector<double> times;
+  for (const double offset : options.instants) {
+    if (isRecorded(event.time + offset)) times.push_back(event.time + offset);
+  }
+  SnapshotOptions picture = viewOf(event, vehicle, times, options);
+  int left = gap;
+  for (const double offset : options.instants) {
+    write(sheet, captionOf(offset), left, top + options.pictureHeight + baselineBelow, softInk);
+    if (isRecorded(event.time + offset)) {
+      picture.moment = event.time + offset;
+      picture.instants = ghostsAt(*picture.moment, vehicle, times);
+      place(sheet, renderer.draw(recording, picture), left, top);
+    } else {
+      fill(sheet, left, top, options.pictureWidth, options.pictureHeight, nothing);
+    }
+    left += options.pictureWidth + gap;
+  }
 }
 
 }  // namespace
@@ -153,12 +222,13 @@ SnapshotOptions viewOf(const ImpactEvent& event, const RecordedVehicle& vehicle,
 Image contactSheet(const Scene& scene, const Recording& recording,
                    const ContactSheetOptions& options) {
   checkOptions(recording, options);
-  const std::vector<NumberedImpact> impacts = chosenImpacts(recording, options.impacts);
-  const auto columns = static_cast<int>(options.instants.size());
-  const int width = columns * (options.pictureWidth + gap) + gap;
-  const int overview = std::max(width * 2 / 5, 2 * options.pictureHeight) / 2 * 2;
-  const int rowHeight = captionHeight + options.pictureHeight + captionHeight + gap;
-  Image sheet(width, gap + overview + gap + static_cast<int>(impacts.size()) * rowHeight, paper);
+  const std::vector<Row> rows = rowsOf(recording, options.impacts);
+  const int width = static_cast<int>(options.instants.size()) * (options.pictureWidth + gap) + gap;
+  const int overview = std::max(width * 2 / 5, options.pictureHeight);
+  const auto headings = [](const Row& row) { return static_cast<int>(row.size()) * captionHeight; };
+  int height = gap + overview + gap;
+  for (const Row& row : rows) height += headings(row) + options.pictureHeight + captionHeight + gap;
+  Image sheet(width, height, paper);
 
   SnapshotRenderer renderer(scene);
   SnapshotOptions whole;
@@ -168,32 +238,15 @@ Image contactSheet(const Scene& scene, const Recording& recording,
   place(sheet, renderer.draw(recording, whole), gap, gap);
 
   int top = gap + overview + gap;
-  for (const NumberedImpact& impact : impacts) {
-    write(sheet, headingOf(impact), gap, top + baselineBelow, ink);
-    const int pictures = top + captionHeight;
-    const int captions = pictures + options.pictureHeight + baselineBelow;
-    top += rowHeight;
-    const RecordedVehicle* vehicle = vehicleOf(recording, impact.event);
-    if (vehicle == nullptr || vehicle->poses.empty()) continue;
-    SnapshotOptions picture = viewOf(impact.event, *vehicle, options);
-    const double first = vehicle->poses.front().time;
-    const double last = vehicle->poses.back().time;
-    for (const double offset : options.instants) {
-      const double time = impact.event.time + offset;
-      if (time >= first && time <= last) picture.instants.push_back(time);
+  for (const Row& row : rows) {
+    for (const NumberedImpact& impact : row) {
+      write(sheet, headingOf(impact), gap, top + baselineBelow, ink);
+      top += captionHeight;
     }
-    for (int column = 0; column < columns; ++column) {
-      const double offset = options.instants[static_cast<std::size_t>(column)];
-      const int left = gap + column * (options.pictureWidth + gap);
-      write(sheet, captionOf(offset), left, captions, softInk);
-      const double time = impact.event.time + offset;
-      if (time < first || time > last) {
-        fill(sheet, left, pictures, options.pictureWidth, options.pictureHeight, nothing);
-        continue;
-      }
-      picture.moment = time;
-      place(sheet, renderer.draw(recording, picture), left, pictures);
-    }
+    const RecordedVehicle* vehicle = vehicleOf(recording, row.front().event);
+    if (vehicle != nullptr && !vehicle->poses.empty())
+      drawPictures(sheet, top, row, *vehicle, recording, options, renderer);
+    top += options.pictureHeight + captionHeight + gap;
   }
   return sheet;
 }

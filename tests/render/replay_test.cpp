@@ -130,17 +130,17 @@ TEST(Replay, StopsWithWhatTheTakerThrows) {
   EXPECT_EQ(taken, 2);
 }
 
-TEST(ContactSheet, HasARowForEachImpact) {
+TEST(ContactSheet, HasARowForEachImpactButNotForItsFollowers) {
   const Scene scene = testRail();
-  const Recording run = testRailRun();
+  const Recording run = testRailRun();  // impacts at 1.50, 1.60 and 2.45 s
   ContactSheetOptions options{.pictureWidth = 200, .pictureHeight = 140};
-  const Image all = contactSheet(scene, run, options);
-  const Image fewer = contactSheet(scene, withoutImpact(run, 1), options);
+  const int all = contactSheet(scene, run, options).height();
+  const int withoutFollower = contactSheet(scene, withoutImpact(run, 1), options).height();
   options.impacts = 1;
-  const Image hardest = contactSheet(scene, run, options);
-  EXPECT_EQ(all.width(), hardest.width());
-  EXPECT_EQ(all.height() - fewer.height(), fewer.height() - hardest.height());
-  EXPECT_GT(all.height() - fewer.height(), 140);
+  const int oneRow = contactSheet(scene, run, options).height();
+  EXPECT_GT(withoutFollower - oneRow, 140);  // a row of pictures
+  EXPECT_GT(all - withoutFollower, 0);       // a line of text
+  EXPECT_LT(all - withoutFollower, 50);
 }
 
 TEST(ContactSheet, PlacesOutsideTheRunAreEmpty) {

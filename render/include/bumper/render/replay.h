@@ -19,8 +19,8 @@ struct ReplayTiming {
   double speed = 1.0;             ///< seconds of the run in one of the replay, 0.001 to 1000
   double slowMotion = 4.0;        ///< how many times slower around impacts, 1 (not at all) to 100
   double slowReach = 0.25;        ///< s of the run before and after an impact, 0 to 100
-  std::optional<double> from;     ///< s; nothing: the first pose of all
-  std::optional<double> to;       ///< s; nothing: the last pose of all
+  std::optional<double> from{};   ///< s; nothing: the first pose of all
+  std::optional<double> to{};     ///< s; nothing: the last pose of all
 };
 
 /// How a replay looks and what it costs.
