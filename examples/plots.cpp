@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <numbers>
 #include <sstream>
 #include <string>
@@ -61,23 +62,25 @@ std::vector<ImpactEvent> impactsOf(const Recording& recording, const PlotOptions
   return impacts;
 }
 
-// The output, the axis of time, and a line with a number at each impact that is not weak.
+// The output, the axis of time, and a line at each impact, with its number where there is room.
 void beginPlot(std::ostream& script, const Recording& recording, const PlotOptions& options,
                const std::filesystem::path& png) {
   script << look << "set output " << quoted(png)
          << "\nset xlabel 'time, s'\nset xzeroaxis lw 1 lc rgb '#808080'\n";
-  double hardest = 0.0;
-  for (const ImpactEvent& event : impactsOf(recording, options))
-    hardest = std::max(hardest, event.deltaV);
+  const std::vector<RecordedPose>& poses = posesOf(recording, options);
+  const double room = 0.015 * (poses.back().time - poses.front().time);
+  double labelled = -std::numeric_limits<double>::infinity();
   int number = 0;
   for (const RecordedImpact& impact : recording.impacts()) {
     ++number;
     const ImpactEvent event = impact.event();
     if (event.vehicle != recording.vehicles()[options.vehicle].name) continue;
-    if (event.deltaV < 0.1 * hardest) continue;
     script << "set arrow from " << event.time << ", graph 0 to " << event.time
-           << ", graph 1 nohead lw 1 dt 3 lc rgb '#d62728' back\nset label '" << number << "' at "
-           << event.time << ", graph 0.97 offset 0.3,0 tc rgb '#d62728' font ',10'\n";
+           << ", graph 1 nohead lw 1 dt 3 lc rgb '#d62728' back\n";
+    if (event.time - labelled < room) continue;
+    labelled = event.time;
+    script << "set label '" << number << "' at " << event.time
+           << ", graph 1 offset 0,0.6 center tc rgb '#d62728' font ',10'\n";
   }
 }
 
@@ -214,7 +217,8 @@ void plotPath(const Scene& scene, const Recording& recording, const PlotOptions&
   script << "EOD\n" << look << "set output " << quoted(png) << '\n';
   constexpr double margin = 8.0;  // m
   script << "set xrange [" << frame.min().x() - margin << ':' << frame.max().x() + margin << "]\n"
-         << "set yrange [" << frame.min().y() - margin << ':' << frame.max().y() + margin << "]\n"
+         << "set yrange [" << frame.min().y() - margin << ':' << frame.max().y() + margin << ']'
+         << (options.sae ? " reverse\n" : "\n")  // from above, either way
          << "set ylabel 'y, m ("
          << (options.sae ? "SAE J670: positive to the right" : "ISO 8855: positive to the left")
          << ")'\n";
@@ -224,7 +228,7 @@ set xlabel 'x, m'
 set cblabel 'speed, m/s'
 set palette defined (0 '#440154', 1 '#31688e', 2 '#35b779', 3 '#fde725')
 set size ratio -1
-set key top left
+set key outside top center horizontal
 plot $walls with lines lw 1.5 lc rgb '#606060' title 'walls', \
      $cars with lines lw 1 lc rgb '#909090' title 'outline', \
      $path using 1:2:3 with lines lw 3 lc palette title 'mass centre')";
