@@ -262,7 +262,7 @@ Camera cameraAt(const Vector3d& eye, const Vector3d& target, double fieldOfView,
   camera.axes.row(1) = back.cross(Vector3d(camera.axes.row(0)));
   camera.axes.row(2) = back;
   camera.focus = target;
-  camera.extent = 1.2 * distance;
+  camera.extent = 0.8 * distance;
   camera.hazeStart = 60.0 + 1.6 * distance;
   camera.hazeEnd = 600.0 + 9.0 * distance;
   camera.sun = Vector3d(0.40, -0.45, 0.80).normalized();

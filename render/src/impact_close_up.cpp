@@ -3,9 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -114,8 +116,7 @@ class Plan {
       : pen_(pen), frame_(frame), centre_(centre), scale_(pixelsPerMetre), unit_(unit) {}
 
   [[nodiscard]] Vector2d at(const Vector2d& point) const {
-    const Vector2d way = scale_ * (point - centre_);
-    return frame_.center() + Vector2d(way.x(), -way.y());
+    return frame_.center() + scale_ * onPicture(point - centre_);
   }
 
   void line(const Vector2d& from, const Vector2d& to, double width, const Colour& colour) const {
@@ -129,27 +130,43 @@ class Plan {
   }
 
   /// From a point on, a way given in units of text, in the plan's directions.
-  void arrow(const Vector2d& from, const Vector2d& way, double width, const Colour& colour) const {
+  void arrow(const Vector2d& from, const Vector2d& way, double width, const Colour& colour) {
     const Vector2d start = at(from);
-    pen_.arrow(start, start + unit_ * Vector2d(way.x(), -way.y()), width * unit_, colour);
+    const Vector2d end = start + unit_ * onPicture(way);
+    pen_.arrow(start, end, width * unit_, colour);
+    keepClear(start, end);
   }
 
-  void disc(const Vector2d& point, double radius, const Colour& colour) const {
+  void disc(const Vector2d& point, double radius, const Colour& colour) {
     pen_.disc(at(point), radius * unit_, colour);
+    keepClear(at(point), at(point));
   }
 
-  /// With its middle some units of text from a point, on white.
+  /// Keeps labels off a line.
+  void keepClear(const Vector2d& start, const Vector2d& end) {
+    for (int k = 0; k <= 12; ++k) {
+      const Vector2d point = start + k / 12.0 * (end - start);
+      taken_.emplace_back(Vector2d(point.array() - 2.0 * unit_),
+                          Vector2d(point.array() + 2.0 * unit_));
+    }
+  }
+
+  /// Written by writeLabels(), with its middle some units of text from a point, or where there is
+  /// room near there.
   void label(const Vector2d& point, const Vector2d& way, const std::string& text,
-             const Colour& colour) const {
-    const Vector2d size = unit_ * Vector2d(drawing::textWidth(text), drawing::capitalHeight);
-    Vector2d centre = at(point) + unit_ * Vector2d(way.x(), -way.y());
-    const Vector2d margin = 0.5 * size + Vector2d::Constant(3.0 * unit_);
-    centre = centre.cwiseMax(frame_.min() + margin).cwiseMin(frame_.max() - margin);
-    const Box area(Vector2d(centre - 0.5 * size), Vector2d(centre + 0.5 * size));
-    pen_.panel(
-        Box(Vector2d(area.min().array() - 1.8 * unit_), Vector2d(area.max().array() + 1.8 * unit_)),
-        2.0 * unit_, Colour(1.0F, 1.0F, 1.0F, 0.85F));
-    pen_.text(area.min(), text, unit_, colour);
+             const Colour& colour) {
+    labels_.push_back({at(point), unit_ * onPicture(way), text, colour});
+  }
+
+  /// Over everything that was drawn.
+  void writeLabels() {
+    for (const Label& label : labels_) {
+      const Box area = placeOf(label);
+      taken_.push_back(area);
+      pen_.panel(area, 2.0 * unit_, Colour(1.0F, 1.0F, 1.0F, 0.85F));
+      pen_.text(area.min() + Vector2d::Constant(labelMargin * unit_), label.text, unit_,
+                label.colour);
+    }
   }
 
   void fill(const std::vector<Vector2d>& corners, const Colour& colour) const {
@@ -177,6 +194,49 @@ class Plan {
   }
 
  private:
+  struct Label {
+    Vector2d point;
+    Vector2d way;
+    std::string text;
+    Colour colour;
+  };
+
+  static constexpr double labelMargin = 1.8;  ///< units of text
+
+  [[nodiscard]] static Vector2d onPicture(const Vector2d& way) { return {way.x(), -way.y()}; }
+
+  /// Near where it is wanted, over as little as possible of what was drawn.
+  [[nodiscard]] Box placeOf(const Label& label) const {
+    const Vector2d half = unit_ * Vector2d(0.5 * drawing::textWidth(label.text) + labelMargin,
+                                           0.5 * drawing::capitalHeight + labelMargin);
+    const Vector2d margin = half + Vector2d::Constant(2.0 * unit_);
+    Box best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const double farther : {1.0, 1.5, 2.2, 3.0}) {
+      for (int k = 0; k < 16; ++k) {
+        // Alternately to either side, farther and farther.
+        const double turn = (k % 2 == 0 ? 1.0 : -1.0) * std::ceil(0.5 * k) * std::numbers::pi / 8.0;
+        // Wide labels need more room beside than above.
+        Vector2d way = farther * (Eigen::Rotation2Dd(turn) * label.way);
+        way.x() += std::copysign(0.5 * half.x(), way.x()) * std::abs(way.x()) / way.norm();
+        const Vector2d centre =
+            (label.point + way).cwiseMax(frame_.min() + margin).cwiseMin(frame_.max() - margin);
+        const Box area(Vector2d(centre - half), Vector2d(centre + half));
+        double cost = (label.point + way - centre).norm() + 6.0 * unit_ * (farther - 1.0) +
+                      4.0 * unit_ * std::abs(turn);
+        for (const Box& taken : taken_) {
+          const Box common = area.intersection(taken);
+          if (!common.isEmpty()) cost += 8.0 * common.volume() / unit_;
+        }
+        if (cost < least) {
+          least = cost;
+          best = area;
+        }
+      }
+    }
+    return best;
+  }
+
   /// The part of a line within the frame.
   [[nodiscard]] std::optional<std::pair<Vector2d, Vector2d>> inside(const Vector2d& from,
                                                                     const Vector2d& to) const {
@@ -202,6 +262,8 @@ class Plan {
   Vector2d centre_;
   double scale_;
   double unit_;
+  std::vector<Box> taken_;
+  std::vector<Label> labels_;
 };
 
 void addWalls(const Plan& plan, const Situation& s) {
@@ -226,7 +288,7 @@ void addOutline(const Plan& plan, const Situation& s) {
   plan.line(nose - step * s.forward - 1.6 * step * s.left, nose, 0.8, outlineColour);
 }
 
-void addArms(const Plan& plan, const Situation& s) {
+void addArms(Plan& plan, const Situation& s) {
   const Vector2d arm = s.contact - s.centre;
   const double x = arm.dot(s.normal);
   const double y = arm.dot(s.tangent);
@@ -234,13 +296,15 @@ void addArms(const Plan& plan, const Situation& s) {
   plan.dashes(s.contact, s.contact + (std::abs(x) + 0.8) * s.normal, 0.7, normalColour);
   plan.line(s.centre, foot, 1.2, armColour);
   plan.line(foot, s.contact, 1.2, armColour);
-  plan.label(0.5 * (s.centre + foot), 8.0 * s.normal, "y = " + drawing::fixed(y, 2) + " m",
+  plan.keepClear(plan.at(s.centre), plan.at(foot));
+  plan.keepClear(plan.at(foot), plan.at(s.contact));
+  plan.label(0.5 * (s.centre + foot), 10.0 * s.normal, "y = " + drawing::fixed(y, 2) + " m",
              armColour);
-  plan.label(0.5 * (foot + s.contact), (y < 0.0 ? -24.0 : 24.0) * s.tangent,
+  plan.label(0.5 * (foot + s.contact), (y < 0.0 ? -10.0 : 10.0) * s.tangent,
              "x = " + drawing::fixed(x, 2) + " m", armColour);
 }
 
-void addMotion(const Plan& plan, const Situation& s) {
+void addMotion(Plan& plan, const Situation& s) {
   constexpr double longest = 62.0;
   const double fastest = std::max({s.before.norm(), s.after.norm(), 1e-6});
   for (const auto& [velocity, colour, name] :
@@ -260,7 +324,7 @@ void addMotion(const Plan& plan, const Situation& s) {
   plan.disc(s.centre, 1.8, paper);
 }
 
-void addContact(const Plan& plan, const Situation& s, bool magnified) {
+void addContact(Plan& plan, const Situation& s, bool magnified) {
   constexpr double axis = 30.0;
   plan.arrow(s.contact, axis * s.normal, 1.2, normalColour);
   plan.label(s.contact, (axis + 6.0) * s.normal, "N", normalColour);
@@ -335,12 +399,13 @@ void paint(const Situation& s, std::size_t number, const CloseUpOptions& options
   const double length = s.vehicle.massCentreToFront + s.vehicle.massCentreToRear;
   const Vector2d middle = 0.5 * (s.corners[0] + s.corners[2]);
   const double scale = main.sizes().minCoeff() / (1.75 * length);
-  const Plan plan(pen, main, 0.6 * middle + 0.4 * s.contact, scale, unit);
+  Plan plan(pen, main, 0.6 * middle + 0.4 * s.contact, scale, unit);
   addWalls(plan, s);
   addOutline(plan, s);
   addArms(plan, s);
   addContact(plan, s, false);
   addMotion(plan, s);
+  plan.writeLabels();
 
   // The column beside: the magnified contact, and numbers below.
   pen.box(Box(Vector2d(main.max().x(), 0.0), all.max()), paper, paper);
@@ -349,10 +414,11 @@ void paint(const Situation& s, std::size_t number, const CloseUpOptions& options
   const Box frame(corner, Vector2d(corner + Vector2d(side, 0.86 * side)));
   pen.panel(frame, 0.0, ground);
   const double span = std::clamp(2.2 * (s.a - s.b).norm(), 0.25, 1.5 * length);
-  const Plan detail(pen, frame, s.contact, frame.sizes().minCoeff() / span, unit);
+  Plan detail(pen, frame, s.contact, frame.sizes().minCoeff() / span, unit);
   addWalls(detail, s);
   addOutline(detail, s);
   addContact(detail, s, true);
+  detail.writeLabels();
 
   const std::string magnification = drawing::fixed(span, 2) + " m from edge to edge";
   double top = frame.max().y() + 4.0 * unit;

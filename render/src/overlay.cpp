@@ -180,7 +180,7 @@ class Overlay {
     const double line = small_ * capitalHeight;
     const double compass = 17.0 * small_;
     const Vector2d size(2.0 * padding_ + small_ * textWidth(label) + 2.6 * compass + 8.0 * small_,
-                        2.0 * padding_ + 1.7 * compass);
+                        2.0 * padding_ + 2.0 * compass);
     const Vector2d corner(margin_, options_.height - margin_ - size.y());
     addPanel(Box(corner, Vector2d(corner + size)));
     pen_.text(corner + Vector2d(padding_ + 2.0 * small_, 0.5 * (size.y() - line)), label, small_,
@@ -247,7 +247,7 @@ class Overlay {
       const double half =
           std::min(60.0, 1.2 * camera_.pixelsPerMetre(drawn.pose.position) / small_);
       const auto area = bestPlace(*point, half + 3.0, size, onPicture(left).stableNormalized());
-      if (!area || (area->center() - *point).norm() > (half + 40.0) * small_) continue;
+      if (!area || (area->center() - *point).norm() > (half + 85.0) * small_) continue;
       const bool free = std::ranges::none_of(avoided_, [&](const Box& taken) {
         return overlapArea(*area, taken) > 0.02 * area->volume();
       });

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <numbers>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -31,6 +32,7 @@ struct Case {
   Scene (*scene)();
   Recording (*run)();
   SnapshotView view;
+  std::optional<double> moment = std::nullopt;
 };
 
 void PrintTo(const Case& which, std::ostream* stream) { *stream << which.name; }
@@ -41,7 +43,9 @@ std::vector<Case> cases() {
   return {{"test_rail_top", testRail, testing::testRailRun, SnapshotView::top},
           {"test_rail_three_quarter", testRail, testing::testRailRun, SnapshotView::three_quarter},
           {"course_top", wholeCourse, testing::courseRun, SnapshotView::top},
-          {"course_three_quarter", wholeCourse, testing::courseRun, SnapshotView::three_quarter}};
+          {"course_three_quarter", wholeCourse, testing::courseRun, SnapshotView::three_quarter},
+          {"test_rail_chase", testRail, testing::testRailRun, SnapshotView::chase, 2.5},
+          {"course_orbit", wholeCourse, testing::courseRun, SnapshotView::orbit}};
 }
 
 SnapshotOptions optionsOf(const Case& which) {
@@ -49,11 +53,13 @@ SnapshotOptions optionsOf(const Case& which) {
   options.width = 800;
   options.height = 450;
   options.view = which.view;
+  options.moment = which.moment;
   return options;
 }
 
-Image draw(const Case& which, const Recording& run) {
-  return renderSnapshot(which.scene(), run, optionsOf(which));
+Image draw(const Case& which, const Recording& run,
+           OffscreenBackend backend = OffscreenBackend::automatic) {
+  return renderSnapshot(which.scene(), run, optionsOf(which), backend);
 }
 
 std::filesystem::path goldenOf(const Case& which) {
@@ -64,22 +70,26 @@ class GoldenImage : public ::testing::TestWithParam<Case> {};
 
 TEST_P(GoldenImage, isMatched) {
   const Case& which = GetParam();
-  const Image actual = draw(which, which.run());
   if (std::getenv("BUMPER_UPDATE_GOLDEN") != nullptr) {
-    writePng(actual, goldenOf(which));
+    writePng(draw(which, which.run()), goldenOf(which));
     GTEST_SKIP() << "wrote " << goldenOf(which);
   }
-  const ImageComparison comparison = compareImages(readPng(goldenOf(which)), actual);
-  if (isGolden(comparison)) return;
-  const std::filesystem::path folder(OUTPUT_FOLDER);
-  std::filesystem::create_directories(folder);
-  writePng(actual, folder / (which.name + "_actual.png"));
-  writePng(comparison.difference, folder / (which.name + "_difference.png"));
-  ADD_FAILURE() << 100.0 * comparison.differingShare << " % of the pixels differ from "
-                << goldenOf(which) << ", in the worst tile " << 100.0 * comparison.worstTileShare
-                << " %; see " << folder / (which.name + "_actual.png") << " and "
-                << folder / (which.name + "_difference.png")
-                << ". If the new picture is right, run again with BUMPER_UPDATE_GOLDEN=1.";
+  for (const OffscreenBackend backend : builtBackends()) {
+    const Image actual = draw(which, which.run(), backend);
+    const ImageComparison comparison = compareImages(readPng(goldenOf(which)), actual);
+    if (isGolden(comparison)) continue;
+    const std::filesystem::path folder(OUTPUT_FOLDER);
+    std::filesystem::create_directories(folder);
+    const std::string name =
+        which.name + (backend == OffscreenBackend::osmesa ? "_osmesa" : "_egl");
+    writePng(actual, folder / (name + "_actual.png"));
+    writePng(comparison.difference, folder / (name + "_difference.png"));
+    ADD_FAILURE() << 100.0 * comparison.differingShare << " % of the pixels differ from "
+                  << goldenOf(which) << ", in the worst tile " << 100.0 * comparison.worstTileShare
+                  << " %; see " << folder / (name + "_actual.png") << " and "
+                  << folder / (name + "_difference.png")
+                  << ". If the new picture is right, run again with BUMPER_UPDATE_GOLDEN=1.";
+  }
 }
 
 TEST_P(GoldenImage, isSmallEnoughToKeep) {
