@@ -205,7 +205,7 @@ Scene load(const Order& order) {
 RunDescription describe(const Order& order, const Scene& scene) {
   RunDescription run{.scene = referenceTo(scene)};
   run.scene.file =
-      std::filesystem::proximate(std::filesystem::absolute(order.scene), order.out).string();
+      std::filesystem::proximate(order.scene, std::filesystem::absolute(order.out)).string();
   run.scene.up = order.up;
   run.scene.scale = order.scale;
   run.parameters = {{"law", order.law}, {"step_s", order.step}};

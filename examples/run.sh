@@ -32,7 +32,7 @@ show() {
   "$build/bin/bumper-replay" glb "$folder/run.jsonl" "$folder/replay.glb"
   "$build/bin/bumper-plot" "$folder/run.jsonl" "$folder/plots" "${@:2}" >/dev/null
   if command -v "${BUMPER_FFMPEG:-ffmpeg}" >/dev/null; then
-    "$build/bin/bumper-replay" video "$folder/run.jsonl" "$folder/replay.mp4" --size 960x540
+    "$build/bin/bumper-replay" video "$folder/run.jsonl" "$folder/replay.mp4"
     made+=" replay.mp4"
   else
     echo "  left out: replay.mp4, for which ffmpeg is not installed"

@@ -1,6 +1,7 @@
 // Makes pictures, films, 3D files and tables of a recording: bumper-replay --help.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <sstream>
@@ -8,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "bumper/render/impact_close_up.h"
 #include "bumper/render/contact_sheet.h"
 #include "bumper/render/csv_export.h"
 #include "bumper/render/glb_export.h"
 #include "bumper/render/image.h"
+#include "bumper/render/impact_close_up.h"
 #include "bumper/render/replay.h"
 #include "bumper/render/snapshot.h"
 #include "bumper/response/error.h"
@@ -77,6 +78,9 @@ void complete(Order& order, const Recording& recording) {
     picture.chase.vehicle = picture.orbit.vehicle = vehicleIndex(recording, order.vehicle);
     picture.orbit.around = OrbitCamera::Around::vehicle;
   }
+  const RecordingSpan& span = order.run.span;
+  if (std::isfinite(span.from)) order.replay.timing.from = span.from;
+  if (std::isfinite(span.to)) order.replay.timing.to = span.to;
   if (!order.camera.empty()) {
     picture.view = SnapshotView::fixed;
     picture.fixed.eye << order.camera[0], order.camera[1], order.camera[2];
@@ -96,7 +100,8 @@ void addPictureOptions(CLI::App& command, Order& order) {
       ->delimiter(',')
       ->expected(6)
       ->type_name("M");
-  command.add_option("--size", order.size, "pixels (default 1280x720)")->type_name("WxH");
+  command.add_option("--size", order.size, "pixels (default 1280x720, films 960x540)")
+      ->type_name("WxH");
   command.add_option("--title", picture.title, "(default: the scene's name)");
 }
 
@@ -235,7 +240,7 @@ int main(int argc, char** argv) {
   CLI::App* csv = command("csv", "events.csv and trajectory.csv", "folder", makeCsv);
   csv->add_option("--vehicle", order.vehicle, "whose trajectory (default: the first)");
 
-  // A picture stands still, a film follows.
-  picture->preparse_callback([&](std::size_t) { order.replay.picture.view = SnapshotView::top; });
+  // A film's frames are small and follow the vehicle; a picture is neither.
+  picture->preparse_callback([&](std::size_t) { order.replay.picture = SnapshotOptions(); });
   return runTool(app, argc, argv, [&] { job(); });
 }

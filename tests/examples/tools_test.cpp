@@ -80,7 +80,7 @@ TEST_F(Tools, HelpIsAManualAndNoError) {
 
 TEST_F(Tools, WrongCommandLinesEndWithTwo) {
   expectError("bumper-replay", "subcommand", wrongCommandLine);
-  expectError("bumper-replay dance run.jsonl", "dance", wrongCommandLine);
+  expectError("bumper-replay dance run.jsonl", "subcommand", wrongCommandLine);
   expectError("bumper-replay video run.jsonl", "result", wrongCommandLine);
   expectError("bumper-replay picture run.jsonl p.png --view sideways", "sideways",
               wrongCommandLine);
