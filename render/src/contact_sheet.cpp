@@ -111,7 +111,9 @@ void write(Image& sheet, const std::string& line, int left, int baseline, Rgb co
         const int toX = column + glyph.left + x;
         const int toY = baseline + glyph.top + y;
         if (toX < 0 || toX >= sheet.width() || toY < 0 || toY >= sheet.height()) continue;
-        const int share = glyph.coverage[static_cast<std::size_t>(y * glyph.width + x)];
+        const int share =
+            glyph.coverage[static_cast<std::size_t>(y) * static_cast<std::size_t>(glyph.width) +
+                           static_cast<std::size_t>(x)];
         const auto mix = [&](std::uint8_t& below, std::uint8_t above) {
           below = static_cast<std::uint8_t>((below * (255 - share) + above * share) / 255);
         };

@@ -43,7 +43,8 @@ class SpawnSettings {
   SpawnSettings(const SpawnSettings&) = delete;
   SpawnSettings& operator=(const SpawnSettings&) = delete;
 
-  pid_t start(const std::string& program, const std::vector<std::string>& arguments) const {
+  [[nodiscard]] pid_t start(const std::string& program,
+                            const std::vector<std::string>& arguments) const {
     std::vector<std::string> words{program};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
