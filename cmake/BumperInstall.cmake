@@ -5,7 +5,7 @@ configure_package_config_file(cmake/bumperConfig.cmake.in bumperConfig.cmake
                               INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(bumperConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/bumperConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/bumperConfigVersion.cmake
-              cmake/FindODE.cmake cmake/FindOSMesa.cmake DESTINATION ${package_dir})
+              cmake/FindEGL.cmake cmake/FindODE.cmake cmake/FindOSMesa.cmake DESTINATION ${package_dir})
 
 # Image regression for others' tests goes with the component render.
 if(TARGET bumper-compare)

@@ -101,7 +101,8 @@ int main(int argc, char** argv) {
       std::printf("  %.8s: %.4f of the energy asked, %.4f left\n", event.vehicle.data(),
                   event.energyAsked, event.energyRatio);
     }
-    writeResults(folder, scene, recording, "Through a fence at 60 mph");
+    writeResults(folder, scene, recording, "Through a fence at 60 mph",
+                 {.scene = referenceTo(scene)});
   } catch (const std::exception& error) {
     std::fprintf(stderr, "break_through: %s\n", error.what());
     return 1;

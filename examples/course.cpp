@@ -90,7 +90,9 @@ int main(int argc, char** argv) {
     std::printf("Course, %zu triangles: %.1f s for the lap, %zu impacts\n", scene.triangles.size(),
                 recording.vehicles()[0].poses.back().time, recording.impacts().size());
     printImpacts(recording);
-    writeResults(folder, scene, recording, "Course, one lap");
+    RunDescription run{.scene = referenceTo(scene)};
+    run.scene.builtIn = "course";
+    writeResults(folder, scene, recording, "Course, one lap", run);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "course: %s\n", error.what());
     return 1;

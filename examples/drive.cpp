@@ -1,6 +1,6 @@
 // Drives a car through any mesh file and lets it hit what stands in its way.
 //
-//   drive aalborg.acc --up y --start 200,300 --heading 15 --speed 30 --out out/drive
+//   bumper-drive aalborg.acc --up y --start 200,300 --heading 15 --speed 30 --out out/drive
 //
 // The whole file becomes one ODE trimesh, road and walls in one, as a game would load it: the
 // wheels stand on it, Bumper answers for its walls, ODE's contact joints for the rest.
@@ -12,7 +12,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <numbers>
@@ -25,6 +24,7 @@
 #include "bumper/scenes/scene_files.h"
 #include "ray_suspension.h"
 #include "results.h"
+#include "tool.h"
 #include "yaw_plane_car.h"
 
 namespace {
@@ -233,9 +233,33 @@ Scene load(const Order& order) {
   }
 }
 
-int drive(int argc, char** argv) {
+// So that the recording finds its scene again when both are moved together.
+RunDescription describe(const Order& order, const Scene& scene) {
+  RunDescription run{.scene = referenceTo(scene)};
+  run.scene.file =
+      std::filesystem::proximate(order.scene, std::filesystem::absolute(order.out)).string();
+  run.scene.up = order.up;
+  run.scene.scale = order.scale;
+  run.parameters = {{"law", order.law}, {"step_s", order.step}};
+  return run;
+}
+
+void drive(const Order& order) {
+  dInitODE2(0);
+  const Scene scene = load(order);
+  const Recording recording = run(order, scene);
+  printImpacts(recording);
+  writeResults(order.out, scene, recording, order.scene.filename().string(),
+               describe(order, scene));
+  dCloseODE();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   Order order;
-  CLI::App app("Drives a car through a mesh file and lets it hit what stands in its way.");
+  CLI::App app("Drives a car through a mesh file and lets it hit what stands in its way.",
+               "bumper-drive");
   app.add_option("scene", order.scene, "mesh file, any format that assimp reads")->required();
   app.add_option("--up", order.up, "the file's up axis, for formats that state none")
       ->check(CLI::IsMember({"y", "z"}));
@@ -265,24 +289,6 @@ int drive(int argc, char** argv) {
       ->check(CLI::IsMember({"restitution", "energy"}))
       ->capture_default_str();
   app.add_option("--out", order.out, "folder for tables and pictures")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
-
-  dInitODE2(0);
-  const Scene scene = load(order);
-  const Recording recording = run(order, scene);
-  printImpacts(recording);
-  writeResults(order.out, scene, recording, order.scene.filename().string());
-  dCloseODE();
-  return 0;
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  try {
-    return drive(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "drive: %s\n", error.what());
-    return 1;
-  }
+  app.footer("\n" + exitCodes());
+  return runTool(app, argc, argv, [&] { drive(order); });
 }

@@ -9,6 +9,7 @@
 
 #include "bumper/render/csv_export.h"
 #include "bumper/render/image.h"
+#include "bumper/render/recording_writer.h"
 #include "bumper/render/snapshot.h"
 
 namespace bumper::examples {
@@ -45,15 +46,17 @@ void record(std::span<const ImpactEvent> events, Recording& recording) {
 }
 
 void writeResults(const std::filesystem::path& folder, const Scene& scene,
-                  const Recording& recording, const std::string& title) {
+                  const Recording& recording, const std::string& title, const RunDescription& run) {
   writeCsv(recording, folder);
+  writeRecording(recording, folder / "run.jsonl", run);
   SnapshotOptions options;
   options.title = title;
   options.view = SnapshotView::three_quarter;
   writePng(renderSnapshot(scene, recording, options), folder / "snapshot.png");
   options.view = SnapshotView::top;
   writePng(renderSnapshot(scene, recording, options), folder / "top_view.png");
-  for (const char* file : {"snapshot.png", "top_view.png", "events.csv", "trajectory.csv"}) {
+  for (const char* file :
+       {"run.jsonl", "snapshot.png", "top_view.png", "events.csv", "trajectory.csv"}) {
     std::printf("  %s\n", (folder / file).string().c_str());
   }
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bumper/render/recording.h"
+#include "bumper/render/run_description.h"
 #include "bumper/scenes/scene.h"
 #include "yaw_plane_car.h"
 
@@ -16,9 +17,10 @@ RecordedPose poseOf(const YawPlaneCar& car, double time);
 /// Keeps the impacts of a step; contacts that only lean or scrape are left out.
 void record(std::span<const ImpactEvent> events, Recording& recording);
 
-/// Writes events.csv, trajectory.csv, snapshot.png and top_view.png into a folder, and says so.
+/// Writes run.jsonl (the recording, which the tools read), events.csv, trajectory.csv, snapshot.png
+/// and top_view.png into a folder, and says so.
 void writeResults(const std::filesystem::path& folder, const Scene& scene,
-                  const Recording& recording, const std::string& title);
+                  const Recording& recording, const std::string& title, const RunDescription& run);
 
 /// Prints the impacts in the order of time, one a line; of more than `most` the hardest.
 void printImpacts(const Recording& recording, std::size_t most = 24);

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs the main job: the paper's test rail and course, a
-# fence that breaks, then a drive on a real race track. Pictures and tables go to out/.
+# fence that breaks, then a drive on a real race track. Recordings, pictures, films (if ffmpeg is
+# there) and tables go to out/.
 #   --no-download   leaves out the real track unless it is there already
 #   --dry-run       shows the packages and stops
 set -euo pipefail
@@ -18,11 +19,31 @@ done
 
 mkdir -p "$root/build"
 install_packages build
-configure_and_build --target test_rail course break_through drive bumper-read-scene
+configure_and_build --target test_rail course break_through bumper-drive bumper-replay bumper-plot \
+  bumper-read-scene
 cd "$root"
+
+# show FOLDER [OPTION of bumper-plot]...: everything that the tools make of a recording.
+show() {
+  local folder=$1
+  local made="closeups sheet.png replay.glb plots"
+  "$build/bin/bumper-replay" closeups "$folder/run.jsonl" "$folder/closeups"
+  "$build/bin/bumper-replay" sheet "$folder/run.jsonl" "$folder/sheet.png"
+  "$build/bin/bumper-replay" glb "$folder/run.jsonl" "$folder/replay.glb"
+  "$build/bin/bumper-plot" "$folder/run.jsonl" "$folder/plots" "${@:2}" >/dev/null
+  if command -v "${BUMPER_FFMPEG:-ffmpeg}" >/dev/null; then
+    "$build/bin/bumper-replay" video "$folder/run.jsonl" "$folder/replay.mp4"
+    made+=" replay.mp4"
+  else
+    echo "  left out: replay.mp4, for which ffmpeg is not installed"
+  fi
+  printf "  $folder/%s\n" $made
+}
 
 say "The paper's test rail"
 "$build/bin/test_rail" out/test_rail
+show out/test_rail/restitution --sae
+show out/test_rail/energy --sae
 
 say "A lap of the course"
 "$build/bin/course" out/course
@@ -34,8 +55,9 @@ say "A drive on a real track"
 if [ "$download" = 1 ]; then "$root/examples/fetch_tracks.sh" road/aalborg || true; fi
 aalborg=$tracks/road/aalborg/aalborg.acc
 if [ -f "$aalborg" ]; then
-  "$build/bin/drive" "$aalborg" --up y --start 260,484.5 --heading 3 --speed 25 --duration 14 \
+  "$build/bin/bumper-drive" "$aalborg" --up y --start 260,484.5 --heading 3 --speed 25 --duration 14 \
     --out out/drive
+  show out/drive
 else
   echo "left out: the track is not there"
 fi

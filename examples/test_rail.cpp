@@ -31,17 +31,16 @@ void runLaw(const std::filesystem::path& folder, Law law) {
 
   std::printf("\nTest rail, %zu triangles, law: %s\n", scene.triangles.size(), name.c_str());
   printImpacts(recording);
-  writeResults(folder / name, scene, recording, "Test rail, " + name + " law, 60 mph");
+  RunDescription run{.scene = referenceTo(scene), .parameters = {{"law", name}}};
+  run.scene.builtIn = "test_rail";
+  writeResults(folder / name, scene, recording, "Test rail, " + name + " law, 60 mph", run);
   if (!havePlotter()) {
-    std::printf("  gnuplot is not installed: no plots\n");
+    std::printf("  gnuplot is not installed: no curves.png\n");
     return;
   }
-  plotYawRate(recording, folder / name / "yaw_rate.png");
-  plotTrajectory(scene, recording, folder / name / "trajectory.png");
-  plotCurves(settings, folder / name / "curves.png");
-  for (const char* file : {"yaw_rate.png", "trajectory.png", "curves.png"}) {
-    std::printf("  %s\n", (folder / name / file).string().c_str());
-  }
+  const std::filesystem::path curves = folder / name / "curves.png";
+  plotCurves(settings, curves);
+  std::printf("  %s\n", curves.string().c_str());
 }
 
 }  // namespace

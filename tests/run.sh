@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs the tests.
 #   --long          adds the long suites
-#   --no-download   leaves out real tracks unless they are there already
+#   --no-download   leaves out real tracks and the GLB validator unless they are there already
 #   --dry-run       shows the packages and stops
 set -euo pipefail
 source "$(dirname "$0")/../cmake/prepare.sh"
@@ -22,6 +22,7 @@ mkdir -p "$root/build"
 install_packages build
 if [ "$download" = 1 ]; then
   "$root/examples/fetch_tracks.sh" road/aalborg oval/a-speedway road/forza || true
+  "$root/tests/fetch_gltf_validator.sh" || true
 fi
 configure_and_build
 

@@ -1,14 +1,17 @@
 #include "camera.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <sstream>
+#include <string>
 #include <vector>
+
+#include "bumper/response/error.h"
 
 namespace bumper::drawing {
 
@@ -18,6 +21,8 @@ using Eigen::AlignedBox2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+constexpr double degree = std::numbers::pi / 180.0;
+
 // As documented at SnapshotView::top.
 constexpr double usableWidth = 0.92;
 constexpr double usableHeight = 0.76;
@@ -26,15 +31,15 @@ constexpr double leastGrowth = 6.0;
 constexpr double headroom = 8.0;
 
 // As documented at SnapshotView::three_quarter.
-constexpr double elevation = 27.0 * std::numbers::pi / 180.0;
-constexpr double halfFieldOfView = 16.0 * std::numbers::pi / 180.0;  // vertical
+constexpr double elevation = 27.0 * degree;
+constexpr double halfFieldOfView = 16.0 * degree;  // vertical
 constexpr double usableThreeQuarter = 0.76;
 
 double lengthOf(const VehicleParameters& vehicle) {
   return vehicle.massCentreToFront + vehicle.massCentreToRear;
 }
 
-Camera topCamera(const Scene& scene, const Recording& recording, const RunExcerpt& run,
+Camera topCamera(const SightLines& scene, const Recording& recording, const RunExcerpt& run,
                  const SnapshotOptions& options) {
   AlignedBox2d frame;
   double highest = -std::numeric_limits<double>::infinity();
@@ -50,8 +55,7 @@ Camera topCamera(const Scene& scene, const Recording& recording, const RunExcerp
   for (const RecordedVehicle& vehicle : recording.vehicles())
     growth = std::max(growth, growthInVehicles * lengthOf(vehicle.parameters));
 
-  Eigen::AlignedBox3d all;
-  for (const Vector3d& vertex : scene.vertices) all.extend(vertex);
+  const Eigen::AlignedBox3d& all = scene.box();
   if (frame.isEmpty()) {
     frame = AlignedBox2d(all.min().head<2>(), all.max().head<2>());
     highest = all.max().z();
@@ -121,7 +125,7 @@ Vector3d horizontal(const Vector3d& direction, const Vector3d& otherwise) {
   return flat.norm() > 1e-6 ? Vector3d(flat.normalized()) : otherwise;
 }
 
-Subject subjectOf(const Scene& scene, const Recording& recording, const RunExcerpt& run) {
+Subject subjectOf(const SightLines& scene, const Recording& recording, const RunExcerpt& run) {
   Subject subject;
   const DrawnImpact* impact = hardest(run);
   for (std::size_t v = 0; v < run.paths.size(); ++v) {
@@ -155,7 +159,11 @@ Subject subjectOf(const Scene& scene, const Recording& recording, const RunExcer
     subject.points.push_back(impact->event.contact);
     subject.open = horizontal(impact->event.normal, Vector3d::Zero());
   }
-  if (subject.points.empty()) subject.points = scene.vertices;
+  if (subject.points.empty()) {
+    for (int corner = 0; corner < 8; ++corner)
+      subject.points.emplace_back(
+          scene.box().corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+  }
   return subject;
 }
 
@@ -179,12 +187,21 @@ void fit(Camera& camera, const std::vector<Vector3d>& points, double tangentX, d
   camera.eye = camera.axes.transpose() * Vector3d(0.5 * (x[0] - x[1]), 0.5 * (y[0] - y[1]), z);
 }
 
+void setPerspective(Camera& camera, double tangentY, double nearest, double farthest) {
+  camera.perspective = true;
+  const double tangentX = tangentY * camera.width / camera.height;
+  camera.projection << 1.0 / tangentX, 0, 0, 0,           //
+      0, 1.0 / tangentY, 0, 0,                            //
+      0, 0, (farthest + nearest) / (nearest - farthest),  //
+      2.0 * farthest * nearest / (nearest - farthest),    //
+      0, 0, -1, 0;
+}
+
 /// Seen from behind and from the side that a horizontal unit vector points to.
 Camera cameraFrom(const Vector3d& side, const Subject& subject, const SnapshotOptions& options) {
   Camera camera;
   camera.width = options.width;
   camera.height = options.height;
-  camera.perspective = true;
 
   const Vector3d backFlat = (-0.72 * subject.travel + 0.69 * side).normalized();
   const Vector3d back = std::cos(elevation) * backFlat + std::sin(elevation) * Vector3d::UnitZ();
@@ -204,42 +221,22 @@ Camera cameraFrom(const Vector3d& side, const Subject& subject, const SnapshotOp
   camera.focus = box.center();
   camera.extent = 0.5 * box.sizes().norm();
   const double distance = (camera.eye - camera.focus).norm();
-  const double nearest = 0.08 * distance;
-  const double farthest = 12.0 * distance + 400.0;
-  camera.projection << 1.0 / tangentX, 0, 0, 0,           //
-      0, 1.0 / tangentY, 0, 0,                            //
-      0, 0, (farthest + nearest) / (nearest - farthest),  //
-      2.0 * farthest * nearest / (nearest - farthest),    //
-      0, 0, -1, 0;
+  camera.hazeStart = 1.6 * distance;
+  camera.hazeEnd = 9.0 * distance + 200.0;
+  setPerspective(camera, tangentY, 0.08 * distance, 12.0 * distance + 400.0);
   return camera;
 }
 
-/// Whether a triangle cuts the segment between two points.
-bool cuts(const Scene& scene, const Scene::Triangle& triangle, const Vector3d& from,
-          const Vector3d& to) {
-  const Vector3d& origin = scene.corner(triangle, 0);
-  Eigen::Matrix3d basis;
-  basis << scene.corner(triangle, 1) - origin, scene.corner(triangle, 2) - origin, from - to;
-  const double determinant = basis.determinant();
-  if (std::abs(determinant) < 1e-12) return false;
-  const Vector3d share = basis.inverse() * (from - origin);
-  return share.x() >= 0.0 && share.y() >= 0.0 && share.x() + share.y() <= 1.0 && share.z() > 0.0 &&
-         share.z() < 1.0;
-}
-
 /// How many of the points the scene hides.
-int hidden(const Scene& scene, const Vector3d& eye, const std::vector<Vector3d>& points) {
+int hidden(const SightLines& scene, const Vector3d& eye, const std::vector<Vector3d>& points) {
   return static_cast<int>(std::ranges::count_if(points, [&](const Vector3d& point) {
     // Not the surface that a point lies on.
-    const Vector3d before = point + 0.02 * (eye - point);
-    return std::ranges::any_of(scene.triangles, [&](const Scene::Triangle& triangle) {
-      return cuts(scene, triangle, before, eye);
-    });
+    return scene.visibleShare(point + 0.02 * (eye - point), eye) < 1.0;
   }));
 }
 
-Camera threeQuarterCamera(const Scene& scene, const Recording& recording, const RunExcerpt& run,
-                          const SnapshotOptions& options) {
+Camera threeQuarterCamera(const SightLines& scene, const Recording& recording,
+                          const RunExcerpt& run, const SnapshotOptions& options) {
   const Subject subject = subjectOf(scene, recording, run);
   const Vector3d left = Vector3d::UnitZ().cross(subject.travel);
   const Vector3d side = left.dot(subject.open) < -0.05 ? Vector3d(-left) : left;
@@ -248,6 +245,134 @@ Camera threeQuarterCamera(const Scene& scene, const Recording& recording, const 
   return hidden(scene, other.eye, subject.watched) < hidden(scene, open.eye, subject.watched)
              ? other
              : open;
+}
+
+/// From an eye to a target, with the light from one side of the world.
+Camera cameraAt(const Vector3d& eye, const Vector3d& target, double fieldOfView,
+                const SnapshotOptions& options) {
+  Camera camera;
+  camera.width = options.width;
+  camera.height = options.height;
+  camera.eye = eye;
+  const double distance = (eye - target).norm();
+  const Vector3d back = (eye - target) / distance;
+  const bool upright = std::abs(back.z()) > 0.9999;
+  const Vector3d up = upright ? Vector3d::UnitY() : Vector3d::UnitZ();
+  camera.axes.row(0) = up.cross(back).normalized();
+  camera.axes.row(1) = back.cross(Vector3d(camera.axes.row(0)));
+  camera.axes.row(2) = back;
+  camera.focus = target;
+  camera.extent = 0.8 * distance;
+  camera.hazeStart = 60.0 + 1.6 * distance;
+  camera.hazeEnd = 600.0 + 9.0 * distance;
+  camera.sun = Vector3d(0.40, -0.45, 0.80).normalized();
+  setPerspective(camera, std::tan(0.5 * fieldOfView * degree), std::max(0.05, 0.06 * distance),
+                 1500.0 + 12.0 * distance);
+  return camera;
+}
+
+void require(bool fine, const char* name, double value, const char* allowed) {
+  if (fine) return;
+  std::ostringstream message;
+  message << name << " is " << value << ": it must " << allowed;
+  throw Error(message.str());
+}
+
+const RecordedVehicle& followed(const Recording& recording, std::size_t index) {
+  const auto vehicles = recording.vehicles();
+  if (index >= vehicles.size())
+    throw Error("a view follows vehicle " + std::to_string(index) + ": the recording has " +
+                std::to_string(vehicles.size()));
+  if (vehicles[index].poses.empty())
+    throw Error("a view follows vehicle '" + vehicles[index].name + "', which has no poses");
+  return vehicles[index];
+}
+
+/// The pose at a time, or the nearest that was recorded.
+RecordedPose poseNear(const RecordedVehicle& vehicle, double time) {
+  return *poseAt(vehicle, std::clamp(time, vehicle.poses.front().time, vehicle.poses.back().time));
+}
+
+/// Where in plan the end of a rope of given length lies that the vehicle pulled and pushed there.
+Vector2d endOfRope(const RecordedVehicle& vehicle, const RecordedPose& here, double length) {
+  constexpr double memory = 6.0;  // rope lengths: what was before turns the rope by 0.3 %
+  const auto& poses = vehicle.poses;
+  auto first = std::ranges::upper_bound(poses, here.time, {}, &RecordedPose::time);
+  const auto end = first;
+  double way = 0.0;
+  while (first != poses.begin() && way < memory * length) {
+    --first;
+    if (std::next(first) != end) way += (std::next(first)->position - first->position).norm();
+  }
+  const RecordedPose& start = first == end ? here : *first;
+  const double angle = heading(start.orientation);
+  Vector2d rope = -length * Vector2d(std::cos(angle), std::sin(angle));
+  Vector2d last = start.position.head<2>();
+  const auto pull = [&](const Vector3d& position) {
+    const Vector2d next = position.head<2>();
+    rope = length * Vector2d(last + rope - next).stableNormalized();
+    last = next;
+  };
+  for (auto pose = first; pose != end; ++pose) pull(pose->position);
+  pull(here.position);
+  return last + rope;
+}
+
+Camera chaseCamera(const SightLines& scene, const Recording& recording, const RunExcerpt& run,
+                   const SnapshotOptions& options) {
+  const ChaseCamera& chase = options.chase;
+  require(chase.distance >= 2.0 && chase.distance <= 1000.0, "ChaseCamera::distance",
+          chase.distance, "lie in 2 m to 1000 m");
+  require(chase.height >= 0.0 && chase.height <= 1000.0, "ChaseCamera::height", chase.height,
+          "lie in 0 m to 1000 m");
+  const RecordedVehicle& vehicle = followed(recording, chase.vehicle);
+  const RecordedPose here = poseNear(vehicle, run.now);
+  Vector3d eye;
+  eye << endOfRope(vehicle, here, chase.distance), here.position.z() + chase.height;
+  const Vector3d ahead = horizontal(here.position - eye, Vector3d::UnitX());
+  const Vector3d target = here.position + 0.3 * chase.distance * ahead;
+  // From above the roof; a little before the wall, and not into the car.
+  const Vector3d roof =
+      here.position + Vector3d(0.0, 0.0, 2.0 * vehicle.parameters.massCentreHeight);
+  const double least = std::min(1.0, 1.2 * vehicle.parameters.massCentreToRear / chase.distance);
+  const double share = scene.visibleShare(roof, eye);
+  if (share < 1.0) eye = roof + std::max(least, 0.92 * share) * (eye - roof);
+  return cameraAt(eye, target, 52.0, options);
+}
+
+Camera fixedCamera(const SnapshotOptions& options) {
+  const FixedCamera& fixed = options.fixed;
+  const double distance = (fixed.eye - fixed.target).norm();
+  require(distance >= 0.01 && distance <= 1e6, "the distance of FixedCamera's eye from its target",
+          distance, "lie in 0.01 m to 1000 km");
+  require(fixed.fieldOfView >= 1.0 && fixed.fieldOfView <= 120.0, "FixedCamera::fieldOfView",
+          fixed.fieldOfView, "lie in 1° to 120°");
+  return cameraAt(fixed.eye, fixed.target, fixed.fieldOfView, options);
+}
+
+Camera orbitCamera(const Recording& recording, const RunExcerpt& run,
+                   const SnapshotOptions& options) {
+  const OrbitCamera& orbit = options.orbit;
+  require(std::isfinite(orbit.angle), "OrbitCamera::angle", orbit.angle, "be finite");
+  require(orbit.elevation >= 1.0 && orbit.elevation <= 89.0, "OrbitCamera::elevation",
+          orbit.elevation, "lie in 1° to 89°");
+  require(orbit.distance >= 1.0 && orbit.distance <= 10000.0, "OrbitCamera::distance",
+          orbit.distance, "lie in 1 m to 10000 m");
+  const DrawnImpact* impact = hardest(run);
+  Vector3d centre;
+  if (orbit.centre) {
+    centre = *orbit.centre;
+    require(centre.allFinite(), "OrbitCamera::centre", centre.sum(), "be finite");
+  } else if (orbit.around == OrbitCamera::Around::hardest_impact && impact != nullptr) {
+    centre = impact->event.contact;
+  } else {
+    centre = poseNear(followed(recording, orbit.vehicle), run.now).position;
+  }
+  const double angle = orbit.angle * degree;
+  const double elevated = orbit.elevation * degree;
+  const Vector3d back(std::cos(elevated) * std::cos(angle), std::cos(elevated) * std::sin(angle),
+                      std::sin(elevated));
+  return cameraAt(centre + orbit.distance * back, centre, 32.0, options);
 }
 
 }  // namespace
@@ -270,10 +395,21 @@ Vector3d Camera::towards(const Vector3d& point) const {
   return perspective ? Vector3d((eye - point).normalized()) : back();
 }
 
-Camera cameraFor(const Scene& scene, const Recording& recording, const RunExcerpt& run,
+Camera cameraFor(const SightLines& scene, const Recording& recording, const RunExcerpt& run,
                  const SnapshotOptions& options) {
-  return options.view == SnapshotView::top ? topCamera(scene, recording, run, options)
-                                           : threeQuarterCamera(scene, recording, run, options);
+  switch (options.view) {
+    case SnapshotView::top:
+      return topCamera(scene, recording, run, options);
+    case SnapshotView::three_quarter:
+      return threeQuarterCamera(scene, recording, run, options);
+    case SnapshotView::chase:
+      return chaseCamera(scene, recording, run, options);
+    case SnapshotView::fixed:
+      return fixedCamera(options);
+    case SnapshotView::orbit:
+      return orbitCamera(recording, run, options);
+  }
+  throw Error("SnapshotOptions::view is none of the views");
 }
 
 }  // namespace bumper::drawing

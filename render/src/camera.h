@@ -5,6 +5,7 @@
 
 #include "bumper/render/snapshot.h"
 #include "run_excerpt.h"
+#include "sight_lines.h"
 
 namespace bumper::drawing {
 
@@ -17,7 +18,9 @@ struct Camera {
   int height = 0;
   bool perspective = false;
   Eigen::Vector3d focus = Eigen::Vector3d::Zero();  ///< what the picture is about, on the ground
-  double extent = 0.0;  ///< m from the focus: radius of what the picture is about
+  double extent = 0.0;     ///< m from the focus: radius of what the picture is about
+  double hazeStart = 0.0;  ///< distance from the camera, m, where haze begins …
+  double hazeEnd = 0.0;    ///< … and where it hides everything; 0: no haze
   Eigen::Vector3d sun = Eigen::Vector3d::UnitZ();  ///< unit, towards the sun
 
   [[nodiscard]] Eigen::Vector3d right() const { return axes.row(0); }
@@ -34,7 +37,8 @@ struct Camera {
   [[nodiscard]] Eigen::Vector3d towards(const Eigen::Vector3d& point) const;
 };
 
-Camera cameraFor(const Scene& scene, const Recording& recording, const RunExcerpt& run,
+/// Throws Error if the options' view has no such vehicle or a number outside its range.
+Camera cameraFor(const SightLines& scene, const Recording& recording, const RunExcerpt& run,
                  const SnapshotOptions& options);
 
 }  // namespace bumper::drawing

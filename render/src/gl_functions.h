@@ -12,11 +12,12 @@ namespace bumper::drawing {
 #define BUMPER_GL_FUNCTIONS(X)                                                                    \
   X(ACTIVETEXTURE, ActiveTexture) X(ATTACHSHADER, AttachShader) X(BINDBUFFER, BindBuffer)         \
   X(BINDFRAMEBUFFER, BindFramebuffer) X(BINDRENDERBUFFER, BindRenderbuffer)                       \
-  X(BINDTEXTURE, BindTexture) X(BINDVERTEXARRAY, BindVertexArray)                                 \
-  X(BLENDFUNC, BlendFunc) X(BLITFRAMEBUFFER, BlitFramebuffer) X(BUFFERDATA, BufferData)           \
+  X(BINDTEXTURE, BindTexture) X(BINDVERTEXARRAY, BindVertexArray) X(BLENDFUNC, BlendFunc)         \
+  X(BLITFRAMEBUFFER, BlitFramebuffer) X(BUFFERDATA, BufferData)                                   \
   X(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus) X(CLEAR, Clear) X(CLEARCOLOR, ClearColor)     \
   X(COLORMASK, ColorMask) X(COMPILESHADER, CompileShader) X(CREATEPROGRAM, CreateProgram)         \
-  X(CREATESHADER, CreateShader) X(DEPTHFUNC, DepthFunc) X(DEPTHMASK, DepthMask)                   \
+  X(CREATESHADER, CreateShader) X(DELETEFRAMEBUFFERS, DeleteFramebuffers)                         \
+  X(DELETERENDERBUFFERS, DeleteRenderbuffers) X(DEPTHFUNC, DepthFunc) X(DEPTHMASK, DepthMask)     \
   X(DISABLE, Disable) X(DRAWARRAYS, DrawArrays) X(DRAWBUFFER, DrawBuffer) X(ENABLE, Enable)       \
   X(ENABLEVERTEXATTRIBARRAY, EnableVertexAttribArray)                                             \
   X(FRAMEBUFFERRENDERBUFFER, FramebufferRenderbuffer)                                             \
@@ -26,13 +27,14 @@ namespace bumper::drawing {
   X(GETINTEGERV, GetIntegerv) X(GETPROGRAMINFOLOG, GetProgramInfoLog)                             \
   X(GETPROGRAMIV, GetProgramiv) X(GETSHADERINFOLOG, GetShaderInfoLog)                             \
   X(GETSHADERIV, GetShaderiv) X(GETUNIFORMLOCATION, GetUniformLocation)                           \
-  X(LINKPROGRAM, LinkProgram) X(PIXELSTOREI, PixelStorei) X(POLYGONOFFSET, PolygonOffset)         \
-  X(READBUFFER, ReadBuffer) X(READPIXELS, ReadPixels)                                             \
+  X(LINKPROGRAM, LinkProgram) X(MULTIDRAWARRAYS, MultiDrawArrays) X(PIXELSTOREI, PixelStorei)     \
+  X(POLYGONOFFSET, PolygonOffset) X(READBUFFER, ReadBuffer) X(READPIXELS, ReadPixels)             \
   X(RENDERBUFFERSTORAGE, RenderbufferStorage)                                                     \
   X(RENDERBUFFERSTORAGEMULTISAMPLE, RenderbufferStorageMultisample)                               \
   X(SHADERSOURCE, ShaderSource) X(TEXIMAGE2D, TexImage2D) X(TEXPARAMETERFV, TexParameterfv)       \
   X(TEXPARAMETERI, TexParameteri) X(UNIFORM1F, Uniform1f) X(UNIFORM1I, Uniform1i)                 \
-  X(UNIFORM3F, Uniform3f) X(UNIFORMMATRIX4FV, UniformMatrix4fv) X(USEPROGRAM, UseProgram)         \
+  X(UNIFORM2F, Uniform2f) X(UNIFORM3F, Uniform3f) X(UNIFORM4F, Uniform4f)                         \
+  X(UNIFORMMATRIX4FV, UniformMatrix4fv) X(USEPROGRAM, UseProgram)                                 \
   X(VERTEXATTRIBPOINTER, VertexAttribPointer) X(VIEWPORT, Viewport)
 // clang-format on
 

@@ -1,64 +1,54 @@
 #include "offscreen_context.h"
 
-#include <GL/glcorearb.h>
-// After glcorearb.h, which it would otherwise replace by the declarations of OpenGL 1.
-#include <GL/osmesa.h>
-
-#include <array>
+#include <algorithm>
 #include <string>
 
 #include "bumper/response/error.h"
 
-namespace bumper::drawing {
+namespace bumper {
+
+std::vector<OffscreenBackend> builtBackends() {
+  return {
+#ifdef BUMPER_OSMESA
+      OffscreenBackend::osmesa,
+#endif
+#ifdef BUMPER_EGL
+      OffscreenBackend::egl,
+#endif
+  };
+}
+
+namespace drawing {
 
 namespace {
 
-class OsMesaContext : public OffscreenContext {
- public:
-  OsMesaContext() {
-    static constexpr std::array<int, 11> attributes = {OSMESA_FORMAT,
-                                                       OSMESA_RGBA,
-                                                       OSMESA_PROFILE,
-                                                       OSMESA_CORE_PROFILE,
-                                                       OSMESA_CONTEXT_MAJOR_VERSION,
-                                                       3,
-                                                       OSMESA_CONTEXT_MINOR_VERSION,
-                                                       3,
-                                                       OSMESA_DEPTH_BITS,
-                                                       0,
-                                                       0};
-    context_ = OSMesaCreateContextAttribs(attributes.data(), nullptr);
-    if (context_ == nullptr)
-      throw Error("OSMesa gives no OpenGL 3.3 core context; it must be Mesa 17 or newer");
-    if (OSMesaMakeCurrent(context_, window_.data(), GL_UNSIGNED_BYTE, windowSide, windowSide) ==
-        GL_FALSE) {
-      OSMesaDestroyContext(context_);
-      throw Error("OSMesa cannot make its context current on this thread");
-    }
-  }
-  OsMesaContext(const OsMesaContext&) = delete;
-  OsMesaContext& operator=(const OsMesaContext&) = delete;
-  OsMesaContext(OsMesaContext&&) = delete;
-  OsMesaContext& operator=(OsMesaContext&&) = delete;
-  ~OsMesaContext() override { OSMesaDestroyContext(context_); }
-
-  [[nodiscard]] Function function(const char* name) const override {
-    const OSMESAproc found = OSMesaGetProcAddress(name);
-    if (found == nullptr) throw Error(std::string("OSMesa has no function ") + name);
-    return found;
-  }
-
- private:
-  /// What a context needs to be current; pictures are drawn into framebuffers of their own.
-  static constexpr int windowSide = 4;
-  std::array<unsigned char, std::size_t{4} * windowSide * windowSide> window_{};
-  OSMesaContext context_ = nullptr;
-};
+std::unique_ptr<OffscreenContext> makeContextOf(OffscreenBackend backend) {
+#ifdef BUMPER_OSMESA
+  if (backend == OffscreenBackend::osmesa) return makeOsMesaContext();
+#endif
+#ifdef BUMPER_EGL
+  if (backend == OffscreenBackend::egl) return makeEglContext();
+#endif
+  throw Error(backend == OffscreenBackend::osmesa ? "bumper was built without OSMesa"
+                                                  : "bumper was built without EGL");
+}
 
 }  // namespace
 
-std::unique_ptr<OffscreenContext> makeOffscreenContext() {
-  return std::make_unique<OsMesaContext>();
+std::unique_ptr<OffscreenContext> makeOffscreenContext(OffscreenBackend backend) {
+  if (backend != OffscreenBackend::automatic) return makeContextOf(backend);
+  std::string reasons;
+  for (const OffscreenBackend built : builtBackends()) {
+    try {
+      return makeContextOf(built);
+    } catch (const Error& error) {
+      reasons += reasons.empty() ? "" : "; ";
+      reasons += error.what();
+    }
+  }
+  throw Error("nothing to draw with: " + reasons);
 }
 
-}  // namespace bumper::drawing
+}  // namespace drawing
+
+}  // namespace bumper

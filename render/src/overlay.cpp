@@ -7,8 +7,11 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "pen.h"
 #include "speed_colours.h"
 #include "text.h"
 
@@ -30,105 +33,7 @@ const Colour mark(0.87F, 0.00F, 0.47F, 1.0F);
 constexpr double fullArrowDeltaV = 5.0;
 constexpr double fullArrow = 34.0;  ///< in the small text's units
 
-constexpr const char* markLegend = "arrow: push of the wall, dv: change of velocity";
-
-/// Draws in pixels, x to the right and y down.
-class Pen {
- public:
-  Pen(int width, int height, Triangles& into) : width_(width), height_(height), into_(into) {}
-
-  void triangle(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Colour& colour) {
-    add(a, colour);
-    add(b, colour);
-    add(c, colour);
-  }
-
-  void box(const Box& area, const Colour& colour) { box(area, colour, colour); }
-
-  /// From the left colour to the right one.
-  void box(const Box& area, const Colour& left, const Colour& right) {
-    const Vector2d& upperLeft = area.min();
-    const Vector2d& lowerRight = area.max();
-    const Vector2d upperRight(lowerRight.x(), upperLeft.y());
-    const Vector2d lowerLeft(upperLeft.x(), lowerRight.y());
-    add(upperLeft, left);
-    add(upperRight, right);
-    add(lowerRight, right);
-    add(upperLeft, left);
-    add(lowerRight, right);
-    add(lowerLeft, left);
-  }
-
-  void panel(const Box& area, double radius, const Colour& colour) {
-    const double r = std::min(radius, 0.5 * area.sizes().minCoeff());
-    std::vector<Vector2d> rim;
-    const Box inner(Vector2d(area.min().array() + r), Vector2d(area.max().array() - r));
-    const std::array<Vector2d, 4> centres = {
-        inner.max(), Vector2d(inner.min().x(), inner.max().y()), inner.min(),
-        Vector2d(inner.max().x(), inner.min().y())};
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-      for (int k = 0; k <= 6; ++k) {
-        const double angle = (static_cast<double>(corner) + k / 6.0) * std::numbers::pi / 2.0;
-        rim.emplace_back(centres[corner] + r * Vector2d(std::cos(angle), std::sin(angle)));
-      }
-    }
-    for (std::size_t k = 0; k < rim.size(); ++k)
-      triangle(area.center(), rim[k], rim[(k + 1) % rim.size()], colour);
-  }
-
-  void disc(const Vector2d& centre, double radius, const Colour& colour) {
-    panel(Box(Vector2d(centre.array() - radius), Vector2d(centre.array() + radius)), radius,
-          colour);
-  }
-
-  void line(const Vector2d& from, const Vector2d& to, double width, const Colour& colour) {
-    const Vector2d way = to - from;
-    if (way.norm() < 1e-9) return;
-    const Vector2d across = 0.5 * width * Vector2d(-way.y(), way.x()).normalized();
-    triangle(from - across, to - across, to + across, colour);
-    triangle(from - across, to + across, from + across, colour);
-  }
-
-  /// With a head three times as wide as the shaft and, if wanted, a rim all around.
-  void arrow(const Vector2d& from, const Vector2d& to, double width, const Colour& colour,
-             double edge = 0.0) {
-    const Vector2d way = to - from;
-    const double length = way.norm();
-    if (length < 1e-9) return;
-    const Vector2d along = way / length;
-    const Vector2d across(-along.y(), along.x());
-    const double head = std::min(4.5 * width, 0.7 * length);
-    const double half = 0.42 * head;
-    // The rim of a slim triangle reaches farther at its tip.
-    const Vector2d tip = to + edge * (head / half) * along;
-    const Vector2d neck = to - head * along;
-    const Vector2d corner = (half + 1.9 * edge) * across;
-    line(from, neck, width + 2.0 * edge, colour);
-    triangle(neck - edge * along + corner, tip, neck - edge * along - corner, colour);
-  }
-
-  /// With its upper left corner on whole pixels, so that letters stay sharp.
-  void text(const Vector2d& place, const std::string& line, double scale, const Colour& colour) {
-    const Vector2d corner = place.array().round();
-    for (const Box& part : textBoxes(line)) {
-      box(Box(Vector2d(corner + scale * part.min()), Vector2d(corner + scale * part.max())),
-          colour);
-    }
-  }
-
- private:
-  void add(const Vector2d& point, const Colour& colour) {
-    Vertex vertex;
-    vertex.clip = {static_cast<float>(2.0 * point.x() / width_ - 1.0),
-                   static_cast<float>(1.0 - 2.0 * point.y() / height_), 0.0F, 1.0F};
-    vertex.colour = {colour.x(), colour.y(), colour.z(), colour.w()};
-    into_.push_back(vertex);
-  }
-
-  int width_;
-  int height_;
-  Triangles& into_;
-};
+constexpr const char* markLegend = "arrow: push of the wall · Δv: change of velocity";
 
 double overlapArea(const Box& a, const Box& b) {
   const Box common = a.intersection(b);
@@ -160,8 +65,8 @@ class Overlay {
       : camera_(camera),
         run_(run),
         options_(options),
-        pen_(options.width, options.height, picture.overlay),
-        // Letters of the font are a few units high: 720 lines take twice that.
+        pen_(picture),
+        // The em is nine units: 18 pixels of 720.
         small_(std::max(1.0, std::round(options.height / 180.0) / 2.0)),
         large_(std::max(1.0, std::round(options.height / 120.0) / 2.0)),
         margin_(std::round(0.022 * options.height)),
@@ -171,14 +76,11 @@ class Overlay {
   void addTitle(const std::string& title) {
     std::string second;
     if (!run_.poses.empty()) {
-      second = run_.start == run_.end ? fixed(run_.end, 2) + " s"
-                                      : fixed(run_.start, 2) + " s to " + fixed(run_.end, 2) + " s";
-      if (const DrawnImpact* worst = hardest(run_)) {
-        const std::size_t count = run_.impacts.size();
-        second += count == 1 ? ", 1 impact: dv "
-                             : ", " + std::to_string(count) + " impacts, hardest: dv ";
-        second += fixed(worst->event.deltaV, 1) + " m/s";
-      }
+      const bool instant = run_.start == run_.end || options_.moment.has_value();
+      second = instant ? fixed(run_.now, 2) + " s"
+                       : fixed(run_.start, 2) + " s to " + fixed(run_.end, 2) + " s";
+      if (options_.moment) second += speedNow();
+      second += impactsSoFar();
     }
     struct Line {
       std::string text;
@@ -267,21 +169,24 @@ class Overlay {
     for (const double x : {left, left + pixels})
       pen_.line({x, bar - tick}, {x, bar + tick}, 1.5 * small_, ink);
 
-    // The arrows' origin is placed so that both, whichever way they point, stay in the panel.
-    const Vector2d x = onPicture(Vector3d::UnitX());
-    const Vector2d y = onPicture(Vector3d::UnitY());
-    const Vector2d area(left + barArea + 9.0 * small_ + 0.5 * compass,
-                        corner.y() + 0.5 * size.y() + 1.5 * small_);
-    const Vector2d origin = area - 0.5 * compass * (x + y);
-    const auto axis = [&](const Vector2d& way, const std::string& name) {
-      pen_.arrow(origin, origin + compass * way, 1.1 * small_, ink);
-      const Vector2d letter(small_ * textWidth(name), line);
-      // Beside the tip, away from the other axis.
-      const Vector2d beside = origin + (compass + 4.0 * small_) * way;
-      pen_.text(beside - 0.5 * letter + Vector2d(0.5 * small_, -0.5 * small_), name, small_, ink);
-    };
-    axis(x, "x");
-    axis(y, "y");
+    addAxes(Vector2d(left + barArea + 9.0 * small_ + 0.5 * compass,
+                     corner.y() + 0.5 * size.y() + 1.5 * small_),
+            compass);
+  }
+
+  /// Which way x, y and z point where the picture is about, and how far apart the grid's lines are.
+  void addCompass(double gridSpacing) {
+    const std::string label = "grid " + fixed(gridSpacing, 0) + " m";
+    const double line = small_ * capitalHeight;
+    const double compass = 17.0 * small_;
+    const Vector2d size(2.0 * padding_ + small_ * textWidth(label) + 2.6 * compass + 8.0 * small_,
+                        2.0 * padding_ + 2.0 * compass);
+    const Vector2d corner(margin_, options_.height - margin_ - size.y());
+    addPanel(Box(corner, Vector2d(corner + size)));
+    pen_.text(corner + Vector2d(padding_ + 2.0 * small_, 0.5 * (size.y() - line)), label, small_,
+              ink);
+    addAxes(Vector2d(corner.x() + size.x() - padding_ - 1.3 * compass, corner.y() + 0.5 * size.y()),
+            compass);
   }
 
   void addImpacts() {
@@ -289,7 +194,7 @@ class Overlay {
     const DrawnImpact* worst = hardest(run_);
     for (const DrawnImpact& impact : run_.impacts) {
       const auto point = camera_.pixel(impact.event.contact);
-      if (!point) continue;
+      if (!point || !impact.shown) continue;
       const double share = impact.event.deltaV / std::max(worst->event.deltaV, fullArrowDeltaV);
       marks.push_back(placeMark(impact, *point, share));
     }
@@ -330,6 +235,29 @@ class Overlay {
     }
   }
 
+  /// When each drawn vehicle was there, where nothing else is.
+  void addTimes() {
+    for (const DrawnPose& drawn : run_.poses) {
+      const auto point = camera_.pixel(drawn.pose.position);
+      if (!point) continue;
+      const std::string time = fixed(drawn.pose.time, 2) + " s";
+      const Vector2d size(small_ * (textWidth(time) + 5.0), small_ * (capitalHeight + 4.0));
+      // Beside the vehicle, on the left of its way if there is no reason for another side.
+      const Vector3d left = drawn.pose.orientation * Vector3d::UnitY();
+      const double half =
+          std::min(60.0, 1.2 * camera_.pixelsPerMetre(drawn.pose.position) / small_);
+      const auto area = bestPlace(*point, half + 3.0, size, onPicture(left).stableNormalized());
+      if (!area || (area->center() - *point).norm() > (half + 85.0) * small_) continue;
+      const bool free = std::ranges::none_of(avoided_, [&](const Box& taken) {
+        return overlapArea(*area, taken) > 0.02 * area->volume();
+      });
+      if (!free) continue;
+      pen_.panel(*area, 2.5 * small_, paper);
+      pen_.text(area->min() + small_ * Vector2d(2.5, 2.0), time, small_, ink);
+      avoided_.push_back(grown(*area, small_));
+    }
+  }
+
   /// Keeps labels away from vehicles and paths where that is possible.
   void avoidRun() {
     for (const DrawnPose& drawn : run_.poses)
@@ -341,6 +269,46 @@ class Overlay {
   }
 
  private:
+  /// Arrows as they look from here; what points away from the viewer is short. All of them lie
+  /// around a centre, whichever way they point.
+  void addAxes(const Vector2d& centre, double length) {
+    Box reached(Vector2d::Zero());
+    std::vector<std::pair<Vector2d, std::string>> axes;
+    for (const auto& [axis, name] : {std::pair{Vector3d(Vector3d::UnitX()), "x"},
+                                     {Vector3d(Vector3d::UnitY()), "y"},
+                                     {Vector3d(Vector3d::UnitZ()), "z"}}) {
+      const Vector2d way = length * onPicture(axis);
+      if (way.norm() < 0.15 * length) continue;
+      axes.emplace_back(way, name);
+      reached.extend(way);
+    }
+    const Vector2d origin = centre - reached.center();
+    for (const auto& [way, name] : axes) {
+      pen_.arrow(origin, origin + way, 1.1 * small_, ink);
+      // Beyond the tip.
+      const Vector2d beside = origin + way + 5.0 * small_ * way.normalized();
+      pen_.text(beside - 0.5 * Vector2d(small_ * textWidth(name), small_ * capitalHeight), name,
+                small_, ink);
+    }
+  }
+
+  /// The speed of a vehicle that is alone.
+  [[nodiscard]] std::string speedNow() const {
+    if (run_.trails.size() != 1 || run_.trails[0].empty()) return "";
+    return " · " + fixed(run_.trails[0].back().velocity.norm(), 1) + " m/s";
+  }
+
+  [[nodiscard]] std::string impactsSoFar() const {
+    const auto count = std::ranges::count(run_.impacts, true, &DrawnImpact::shown);
+    if (count == 0) return "";
+    double most = 0.0;
+    for (const DrawnImpact& impact : run_.impacts)
+      most = impact.shown ? std::max(most, impact.event.deltaV) : most;
+    return (count == 1 ? " · 1 impact: Δv "
+                       : " · " + std::to_string(count) + " impacts, hardest: Δv ") +
+           fixed(most, 1) + " m/s";
+  }
+
   [[nodiscard]] static double scaleFor(const std::string& line, double wanted, double room) {
     double scale = wanted;
     while (scale > 1.0 && scale * textWidth(line) > room) scale -= 0.5;
@@ -387,12 +355,12 @@ class Overlay {
   }
 
   [[nodiscard]] static std::string valueOf(const DrawnImpact& impact) {
-    return "dv " + fixed(impact.event.deltaV, 1) + " m/s";
+    return "Δv " + fixed(impact.event.deltaV, 1) + " m/s";
   }
 
   [[nodiscard]] Vector2d labelSize(const DrawnImpact& impact) const {
     return {small_ * (textWidth(numberOf(impact)) + textWidth(valueOf(impact)) + 17.0),
-            small_ * (capitalHeight + 6.0)};
+            small_ * (capitalHeight + 8.0)};
   }
 
   /// Where a label hides least: away from the arrow and from other marks if it can, over no other
@@ -408,21 +376,27 @@ class Overlay {
       if (other.impact->labelled && apart.norm() > 1e-9 && apart.norm() < size.x())
         away += 2.0 * (1.0 - apart.norm() / size.x()) * apart.normalized();
     }
-    away = away.stableNormalized();
+    return bestPlace(placed.point, 10.0, size, away.stableNormalized());
+  }
+
+  /// For a label of a size beside a point, at least some units of text away from it.
+  [[nodiscard]] std::optional<Box> bestPlace(const Vector2d& point, double least,
+                                             const Vector2d& size, const Vector2d& away) const {
     const Box picture(Vector2d(margin_, margin_),
                       Vector2d(options_.width - margin_, options_.height - margin_));
-    if (!Box(Vector2d::Zero(), Vector2d(options_.width, options_.height)).contains(placed.point))
+    if (!Box(Vector2d::Zero(), Vector2d(options_.width, options_.height)).contains(point))
       return {};
     std::optional<Box> best;
-    double least = std::numeric_limits<double>::infinity();
-    for (const double distance : {10.0, 18.0, 28.0, 40.0, 55.0, 72.0}) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const double farther : {0.0, 8.0, 18.0, 30.0, 45.0, 62.0}) {
+      const double distance = least + farther;
       for (int k = 0; k < 24; ++k) {
         const double angle = 2.0 * std::numbers::pi * k / 24.0;
         const Vector2d way(std::cos(angle), std::sin(angle));
         // The nearest point of the label is at the distance.
         const double half = std::min(std::abs(0.5 * size.x() / (std::abs(way.x()) + 1e-9)),
                                      std::abs(0.5 * size.y() / (std::abs(way.y()) + 1e-9)));
-        const Vector2d centre = placed.point + (distance * small_ + half) * way;
+        const Vector2d centre = point + (distance * small_ + half) * way;
         const Box area(Vector2d(centre - 0.5 * size), Vector2d(centre + 0.5 * size));
         if (!picture.contains(area)) continue;
         double cost = 3.0 * distance + 70.0 * (1.0 - way.dot(away));
@@ -430,11 +404,11 @@ class Overlay {
         for (const Box& taken : avoided_) cost += 16.0 * overlapArea(area, taken) / unit;
         for (const auto& [taken, weight] : disliked_)
           cost += weight * overlapArea(area, taken) / unit;
-        for (const Box& dot : leader(placed.point, centre)) {
+        for (const Box& dot : leader(point, centre)) {
           for (const Box& other : labels_) cost += 40.0 * overlapArea(dot, other) / dot.volume();
         }
-        if (cost < least) {
-          least = cost;
+        if (cost < lowest) {
+          lowest = cost;
           best = area;
         }
       }
@@ -496,9 +470,15 @@ void addOverlay(const Camera& camera, const RunExcerpt& run, const SnapshotOptio
   Overlay overlay(camera, run, options, picture);
   if (options.showTitle) overlay.addTitle(title);
   if (options.showPath && !run.poses.empty()) overlay.addLegend();
-  if (options.showScaleBar && options.view == SnapshotView::top) overlay.addScaleBar();
+  if (options.showScaleBar) {
+    if (options.view == SnapshotView::top)
+      overlay.addScaleBar();
+    else
+      overlay.addCompass(picture.gridSpacing);
+  }
   overlay.avoidRun();
   if (options.showImpacts) overlay.addImpacts();
+  if (options.showTimes && options.showVehicles && !options.moment) overlay.addTimes();
 }
 
 }  // namespace bumper::drawing

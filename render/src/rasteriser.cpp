@@ -2,60 +2,65 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include "bumper/response/error.h"
-#include "gl_functions.h"
-#include "offscreen_context.h"
 
 namespace bumper::drawing {
 
 namespace {
 
 constexpr int wantedSamples = 4;
-constexpr int shadowSide = 2048;
+constexpr int shadowSide = 1024;
 
-constexpr const char* vertexSource = R"(#version 330 core
-layout(location = 0) in vec4 clip;
-layout(location = 1) in vec4 colour;
-layout(location = 2) in vec3 world;
-layout(location = 3) in vec3 lighting;
-uniform mat4 sunView;
-out vec4 surfaceColour;
-out vec3 surfaceLighting;
+// A picture's rows go down, OpenGL's up: everything is drawn upside down.
+constexpr const char* surfaceVertexSource = R"(#version 330 core
+layout(location = 0) in vec3 place;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 colour;
+uniform mat4 toLocal;
+uniform mat4 localToClip;
+uniform mat4 localToSun;
+uniform vec4 viewer;
+uniform vec3 sun;
+uniform vec4 wallTint;
+uniform float paleness;
+uniform float opacity;
+uniform vec2 gridStart;
+uniform float shadowScale;
+flat out vec4 surfaceColour;
+flat out vec3 lighting;
 out vec2 ground;
 out vec3 inShadowMap;
 void main() {
-  gl_Position = clip;
-  surfaceColour = colour;
-  surfaceLighting = lighting;
-  ground = world.xy;
-  inShadowMap = (sunView * vec4(world, 1.0)).xyz * 0.5 + 0.5;
+  vec3 local = (toLocal * vec4(place, 1.0)).xyz;
+  vec4 clip = localToClip * vec4(local, 1.0);
+  gl_Position = vec4(clip.x, -clip.y, clip.zw);
+  // Files do not always say which side is out: the side that is seen is.
+  vec3 out_ = mat3(toLocal) * normal;
+  if (dot(out_, viewer.xyz - viewer.w * local) < 0.0) out_ = -out_;
+  lighting = vec3(0.60 + 0.10 * out_.z, 0.46 * max(0.0, dot(out_, sun)), colour.a);
+  vec3 tinted = mix(colour.rgb, wallTint.rgb, (1.0 - colour.a) * wallTint.a);
+  surfaceColour = vec4(mix(tinted, vec3(1.0), paleness), opacity);
+  ground = local.xy + gridStart;
+  inShadowMap = (localToSun * vec4(local, 1.0)).xyz * vec3(vec2(shadowScale), 0.5) + 0.5;
 }
 )";
 
 constexpr const char* litFragmentSource = R"(#version 330 core
-in vec4 surfaceColour;
-in vec3 surfaceLighting;
+flat in vec4 surfaceColour;
+flat in vec3 lighting;
 in vec2 ground;
 in vec3 inShadowMap;
 uniform sampler2DShadow shadowMap;
-uniform float shadowTexel;
 uniform float gridSpacing;
 uniform vec3 hazeColour;
 uniform float hazeStart;
 uniform float hazePerMetre;
 out vec4 drawn;
-
-float sunlit() {
-  vec2 reach = vec2(0.75, -0.75) * shadowTexel;
-  return 0.25 * (texture(shadowMap, inShadowMap + vec3(reach.xx, 0.0)) +
-                 texture(shadowMap, inShadowMap + vec3(reach.xy, 0.0)) +
-                 texture(shadowMap, inShadowMap + vec3(reach.yx, 0.0)) +
-                 texture(shadowMap, inShadowMap + vec3(reach.yy, 0.0)));
-}
 
 float gridLine() {
   vec2 perPixel = max(fwidth(ground), vec2(1e-6));
@@ -65,10 +70,56 @@ float gridLine() {
 }
 
 void main() {
-  float light = surfaceLighting.x + surfaceLighting.y * sunlit();
-  vec3 colour = surfaceColour.rgb * light * (1.0 - 0.08 * surfaceLighting.z * gridLine());
+  float light = lighting.x + lighting.y * texture(shadowMap, inShadowMap);
+  vec3 colour = surfaceColour.rgb * light * (1.0 - 0.08 * lighting.z * gridLine());
   float haze = clamp((1.0 / gl_FragCoord.w - hazeStart) * hazePerMetre, 0.0, 1.0);
   drawn = vec4(mix(colour, hazeColour, haze * haze * (3.0 - 2.0 * haze)), surfaceColour.a);
+}
+)";
+
+constexpr const char* edgeVertexSource = R"(#version 330 core
+layout(location = 0) in vec3 from;
+layout(location = 1) in vec3 to;
+layout(location = 2) in vec2 corner;
+layout(location = 3) in vec4 colour;
+uniform mat4 toLocal;
+uniform mat4 localToClip;
+uniform vec4 wallTint;
+uniform vec2 halfSize;
+uniform float pixelsPerMetre;
+uniform float width;
+uniform float faintest;
+uniform float nearer;
+out vec4 surfaceColour;
+void main() {
+  vec4 a = localToClip * toLocal * vec4(from, 1.0);
+  vec4 b = localToClip * toLocal * vec4(to, 1.0);
+  // Cut off what lies before the near plane.
+  float insideA = a.z + a.w;
+  float insideB = b.z + b.w;
+  if (insideA < 0.0 && insideB > 0.0) a += (b - a) * (insideA / (insideA - insideB));
+  if (insideB < 0.0 && insideA > 0.0) b += (a - b) * (insideB / (insideB - insideA));
+  vec2 way = (b.xy / b.w - a.xy / a.w) * halfSize;
+  float far = length(way);
+  bool seen = insideA > 0.0 || insideB > 0.0;
+  vec2 across = seen && far > 1e-6 ? vec2(-way.y, way.x) / far : vec2(0.0);
+  vec4 clip = corner.x < 0.5 ? a : b;
+  clip.xy += 0.5 * width * corner.y * across / halfSize * clip.w;
+  clip.z -= nearer * clip.w;
+  gl_Position = seen ? vec4(clip.x, -clip.y, clip.zw) : vec4(0.0, 0.0, -2.0, 1.0);
+  // Far lines become fainter instead of crowding.
+  float faint = clamp(pixelsPerMetre / clip.w / 7.0 - 0.2, faintest, 1.0);
+  surfaceColour = vec4(mix(colour.rgb, wallTint.rgb, wallTint.a), faint);
+}
+)";
+
+constexpr const char* flatVertexSource = R"(#version 330 core
+layout(location = 0) in vec4 clip;
+layout(location = 1) in vec4 colour;
+out vec4 surfaceColour;
+void main() {
+  gl_Position = vec4(clip.x, -clip.y, clip.zw);
+  surfaceColour = colour;
 }
 )";
 
@@ -79,281 +130,404 @@ void main() { drawn = surfaceColour; }
 )";
 
 constexpr const char* shadowVertexSource = R"(#version 330 core
-layout(location = 0) in vec3 world;
-uniform mat4 sunView;
-void main() { gl_Position = sunView * vec4(world, 1.0); }
+layout(location = 0) in vec3 place;
+uniform mat4 toLocal;
+uniform mat4 localToSun;
+void main() { gl_Position = localToSun * toLocal * vec4(place, 1.0); }
 )";
 
 constexpr const char* shadowFragmentSource = R"(#version 330 core
 void main() {}
 )";
 
-/// One drawing. The context's end frees every object made in it.
-class Rasteriser {
- public:
-  explicit Rasteriser(const Picture& picture)
-      : picture_(picture), context_(makeOffscreenContext()), gl_(*context_) {}
+Eigen::Matrix4d movedBy(const Eigen::Vector3d& way) {
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  matrix.topRightCorner<3, 1>() = way;
+  return matrix;
+}
 
-  Image draw() {
-    checkSize();
-    const GLuint shadowMap = drawShadowMap();
-    const GLuint target = makeTarget(sampleCount());
-    drawLayers(shadowMap);
-    Image image = readBack(target);
-    if (gl_.GetError() != GL_NO_ERROR) throw Error("OpenGL reports an error after drawing");
-    return image;
-  }
-
- private:
-  /// A part of the vertex buffer.
-  struct Range {
-    GLint first = 0;
-    GLsizei count = 0;
-  };
-
-  [[nodiscard]] GLint limit(GLenum name) const {
-    std::array<GLint, 2> value{};
-    gl_.GetIntegerv(name, value.data());
-    return value[0];
-  }
-
-  void checkSize() const {
-    std::array<GLint, 2> viewport{};
-    gl_.GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
-    const GLint side = limit(GL_MAX_RENDERBUFFER_SIZE);
-    const GLint width = std::min(side, viewport[0]);
-    const GLint height = std::min(side, viewport[1]);
-    if (picture_.width <= width && picture_.height <= height) return;
-    throw Error("a picture of " + std::to_string(picture_.width) + " x " +
-                std::to_string(picture_.height) + " pixels: this driver allows " +
-                std::to_string(width) + " x " + std::to_string(height));
-  }
-
-  [[nodiscard]] GLsizei sampleCount() const {
-    return std::min(wantedSamples, limit(GL_MAX_SAMPLES));
-  }
-
-  [[nodiscard]] GLuint shader(GLenum kind, const char* source) const {
-    const GLuint name = gl_.CreateShader(kind);
-    gl_.ShaderSource(name, 1, &source, nullptr);
-    gl_.CompileShader(name);
-    GLint compiled = GL_FALSE;
-    gl_.GetShaderiv(name, GL_COMPILE_STATUS, &compiled);
-    if (compiled == GL_TRUE) return name;
-    std::array<GLchar, 1024> log{};
-    gl_.GetShaderInfoLog(name, log.size(), nullptr, log.data());
-    throw Error(std::string("the driver rejects a shader: ") + log.data());
-  }
-
-  [[nodiscard]] GLuint program(const char* vertex, const char* fragment) const {
-    const GLuint name = gl_.CreateProgram();
-    gl_.AttachShader(name, shader(GL_VERTEX_SHADER, vertex));
-    gl_.AttachShader(name, shader(GL_FRAGMENT_SHADER, fragment));
-    gl_.LinkProgram(name);
-    GLint linked = GL_FALSE;
-    gl_.GetProgramiv(name, GL_LINK_STATUS, &linked);
-    if (linked == GL_TRUE) return name;
-    std::array<GLchar, 1024> log{};
-    gl_.GetProgramInfoLog(name, log.size(), nullptr, log.data());
-    throw Error(std::string("the driver cannot link the shaders: ") + log.data());
-  }
-
-  void bindNewBuffer() const {
-    GLuint array = 0;
-    GLuint buffer = 0;
-    gl_.GenVertexArrays(1, &array);
-    gl_.BindVertexArray(array);
-    gl_.GenBuffers(1, &buffer);
-    gl_.BindBuffer(GL_ARRAY_BUFFER, buffer);
-  }
-
-  void attribute(GLuint place, GLint size, std::size_t stride, std::size_t offset) const {
-    gl_.EnableVertexAttribArray(place);
-    gl_.VertexAttribPointer(place, size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
-                            // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL passes offsets so
-                            reinterpret_cast<const void*>(offset));
-  }
-
-  void checkFramebuffer() const {
-    if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-      throw Error("the driver cannot draw into a framebuffer of " + std::to_string(picture_.width) +
-                  " x " + std::to_string(picture_.height) + " pixels");
-  }
-
-  [[nodiscard]] GLuint drawShadowMap() const {
-    GLuint texture = 0;
-    gl_.GenTextures(1, &texture);
-    gl_.BindTexture(GL_TEXTURE_2D, texture);
-    gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, shadowSide, shadowSide, 0,
-                   GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, nullptr);
-    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
-    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
-    static constexpr std::array<GLfloat, 4> outsideIsLit = {1.0F, 1.0F, 1.0F, 1.0F};
-    gl_.TexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, outsideIsLit.data());
-    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-    gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
-
-    GLuint framebuffer = 0;
-    gl_.GenFramebuffers(1, &framebuffer);
-    gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture, 0);
-    gl_.DrawBuffer(GL_NONE);
-    gl_.ReadBuffer(GL_NONE);
-    checkFramebuffer();
-
-    const GLuint caster = program(shadowVertexSource, shadowFragmentSource);
-    gl_.UseProgram(caster);
-    gl_.UniformMatrix4fv(gl_.GetUniformLocation(caster, "sunView"), 1, GL_FALSE,
-                         picture_.sunView.data());
-    bindNewBuffer();
-    const auto& casters = picture_.casters;
-    gl_.BufferData(GL_ARRAY_BUFFER,
-                   static_cast<GLsizeiptr>(casters.size() * sizeof(Eigen::Vector3f)),
-                   casters.data(), GL_STATIC_DRAW);
-    attribute(0, 3, sizeof(Eigen::Vector3f), 0);
-
-    gl_.Viewport(0, 0, shadowSide, shadowSide);
-    gl_.Enable(GL_DEPTH_TEST);
-    gl_.Clear(GL_DEPTH_BUFFER_BIT);
-    // Moves what is drawn away from the sun, so that a lit face does not shade itself.
-    gl_.Enable(GL_POLYGON_OFFSET_FILL);
-    gl_.PolygonOffset(3.0F, 8.0F);
-    gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(casters.size()));
-    gl_.Disable(GL_POLYGON_OFFSET_FILL);
-    return texture;
-  }
-
-  /// A framebuffer with colour and depth, bound; 0 samples for one that can be read.
-  [[nodiscard]] GLuint makeTarget(GLsizei samples) const {
-    GLuint framebuffer = 0;
-    gl_.GenFramebuffers(1, &framebuffer);
-    gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    static constexpr std::array<std::array<GLenum, 2>, 2> parts = {
-        {{GL_COLOR_ATTACHMENT0, GL_RGBA8}, {GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24}}};
-    for (const auto& [attachment, format] : parts) {
-      GLuint part = 0;
-      gl_.GenRenderbuffers(1, &part);
-      gl_.BindRenderbuffer(GL_RENDERBUFFER, part);
-      gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, picture_.width,
-                                         picture_.height);
-      gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, part);
+/// Whether nothing of a box can be seen: all of its corners lie beyond one side of the picture.
+bool outside(const Eigen::AlignedBox3d& box, const Eigen::Matrix4d& toClip) {
+  constexpr double edgesReachFarther = 1.02;
+  std::array<int, 6> beyond{};
+  for (int k = 0; k < 8; ++k) {
+    const Eigen::Vector4d clip =
+        toClip * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)).homogeneous();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double place = clip[static_cast<Eigen::Index>(axis)];
+      const double most = edgesReachFarther * clip.w();
+      beyond[2 * axis] += place > most ? 1 : 0;
+      beyond[2 * axis + 1] += place < -most ? 1 : 0;
     }
-    checkFramebuffer();
-    return framebuffer;
   }
+  return std::ranges::find(beyond, 8) != beyond.end();
+}
 
-  void setUniforms(GLuint lit, GLuint shadowMap) const {
-    const auto uniform = [&](const char* name) { return gl_.GetUniformLocation(lit, name); };
-    gl_.UseProgram(lit);
-    gl_.UniformMatrix4fv(uniform("sunView"), 1, GL_FALSE, picture_.sunView.data());
-    gl_.ActiveTexture(GL_TEXTURE0);
-    gl_.BindTexture(GL_TEXTURE_2D, shadowMap);
-    gl_.Uniform1i(uniform("shadowMap"), 0);
-    gl_.Uniform1f(uniform("shadowTexel"), 1.0F / shadowSide);
-    gl_.Uniform1f(uniform("gridSpacing"), static_cast<float>(picture_.gridSpacing));
-    gl_.Uniform3f(uniform("hazeColour"), picture_.hazeColour.x(), picture_.hazeColour.y(),
-                  picture_.hazeColour.z());
-    const double hazeDepth = picture_.hazeEnd - picture_.hazeStart;
-    gl_.Uniform1f(uniform("hazeStart"), static_cast<float>(picture_.hazeStart));
-    gl_.Uniform1f(uniform("hazePerMetre"),
-                  hazeDepth > 0.0 ? static_cast<float>(1.0 / hazeDepth) : 0.0F);
-  }
-
-  void drawLayers(GLuint shadowMap) const {
-    const std::array<const Triangles*, 7> layers = {
-        &picture_.background, &picture_.surfaces, &picture_.outlines, &picture_.vehicles,
-        &picture_.ribbons,    &picture_.ghosts,   &picture_.overlay};
-    std::array<Range, layers.size()> ranges;
-    Triangles all;
-    for (std::size_t k = 0; k < layers.size(); ++k) {
-      ranges[k] = {static_cast<GLint>(all.size()), static_cast<GLsizei>(layers[k]->size())};
-      all.insert(all.end(), layers[k]->begin(), layers[k]->end());
-    }
-    const auto& [background, surfaces, outlines, vehicles, ribbons, ghosts, overlay] = ranges;
-
-    const GLuint flat = program(vertexSource, flatFragmentSource);
-    const GLuint lit = program(vertexSource, litFragmentSource);
-    setUniforms(lit, shadowMap);
-    bindNewBuffer();
-    gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(all.size() * sizeof(Vertex)),
-                   all.data(), GL_STATIC_DRAW);
-    attribute(0, 4, sizeof(Vertex), offsetof(Vertex, clip));
-    attribute(1, 4, sizeof(Vertex), offsetof(Vertex, colour));
-    attribute(2, 3, sizeof(Vertex), offsetof(Vertex, world));
-    attribute(3, 3, sizeof(Vertex), offsetof(Vertex, lighting));
-    const auto paint = [&](const Range& range) {
-      gl_.DrawArrays(GL_TRIANGLES, range.first, range.count);
-    };
-
-    gl_.Viewport(0, 0, picture_.width, picture_.height);
-    gl_.ClearColor(1.0F, 1.0F, 1.0F, 1.0F);
-    gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    gl_.Enable(GL_BLEND);
-    gl_.DepthFunc(GL_LEQUAL);
-
-    gl_.UseProgram(flat);
-    gl_.Disable(GL_DEPTH_TEST);
-    paint(background);
-
-    gl_.UseProgram(lit);
-    gl_.Enable(GL_DEPTH_TEST);
-    paint(surfaces);
-
-    gl_.UseProgram(flat);
-    gl_.DepthMask(GL_FALSE);
-    paint(outlines);
-    gl_.DepthMask(GL_TRUE);
-
-    gl_.UseProgram(lit);
-    paint(vehicles);
-    // Depth first, then colour where it is nearest: ghosts do not show through themselves.
-    gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    paint(ghosts);
-    gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-
-    // Ribbons pass for nearer than they are: vehicles once more, over their ends.
-    gl_.UseProgram(flat);
-    gl_.DepthMask(GL_FALSE);
-    paint(ribbons);
-    gl_.DepthMask(GL_TRUE);
-    gl_.UseProgram(lit);
-    paint(vehicles);
-    paint(ghosts);
-
-    gl_.UseProgram(flat);
-    gl_.Disable(GL_DEPTH_TEST);
-    paint(overlay);
-  }
-
-  [[nodiscard]] Image readBack(GLuint drawnInto) const {
-    const GLuint readable = makeTarget(0);
-    gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, drawnInto);
-    gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, readable);
-    gl_.BlitFramebuffer(0, 0, picture_.width, picture_.height, 0, 0, picture_.width,
-                        picture_.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, readable);
-    gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    Image image(picture_.width, picture_.height);
-    gl_.ReadPixels(0, 0, picture_.width, picture_.height, GL_RGB, GL_UNSIGNED_BYTE,
-                   image.pixels().data());
-    // OpenGL's rows go up.
-    for (int y = 0; y < picture_.height / 2; ++y) {
-      std::swap_ranges(&image.at(0, y), &image.at(0, y) + picture_.width,
-                       &image.at(0, picture_.height - 1 - y));
-    }
-    return image;
-  }
-
-  const Picture& picture_;
-  std::unique_ptr<OffscreenContext> context_;
-  GlFunctions gl_;
-};
+/// Adds a range to a list, to the last of it if they join.
+void join(const Range& range, std::vector<Range>& ranges) {
+  if (range.count == 0) return;
+  if (!ranges.empty() && ranges.back().first + ranges.back().count == range.first)
+    ranges.back().count += range.count;
+  else
+    ranges.push_back(range);
+}
 
 }  // namespace
 
-Image rasterise(const Picture& picture) { return Rasteriser(picture).draw(); }
+Rasteriser::Rasteriser(const OffscreenContext& context, const SceneModel& scene)
+    : gl_(context),
+      sceneOrigin_(scene.origin),
+      parts_(scene.parts),
+      casterCount_(scene.casters.size()),
+      lit_(program(surfaceVertexSource, litFragmentSource)),
+      edge_(program(edgeVertexSource, flatFragmentSource)),
+      flat_(program(flatVertexSource, flatFragmentSource)),
+      caster_(program(shadowVertexSource, shadowFragmentSource)),
+      surfaces_(makeBuffer()),
+      edges_(makeBuffer()),
+      casters_(makeBuffer()),
+      bodies_(makeBuffer()),
+      layers_(makeBuffer()) {
+  fill<SurfaceVertex>(surfaces_, scene.surfaces, GL_STATIC_DRAW);
+  readAsSurfaces();
+  fill<EdgeVertex>(edges_, scene.edges, GL_STATIC_DRAW);
+  attribute(0, 3, GL_FLOAT, sizeof(EdgeVertex), offsetof(EdgeVertex, from));
+  attribute(1, 3, GL_FLOAT, sizeof(EdgeVertex), offsetof(EdgeVertex, to));
+  attribute(2, 2, GL_FLOAT, sizeof(EdgeVertex), offsetof(EdgeVertex, corner));
+  attribute(3, 4, GL_UNSIGNED_BYTE, sizeof(EdgeVertex), offsetof(EdgeVertex, colour));
+  fill<std::array<float, 3>>(casters_, scene.casters, GL_STATIC_DRAW);
+  attribute(0, 3, GL_FLOAT, sizeof(std::array<float, 3>), 0);
+  fill<SurfaceVertex>(bodies_, {}, GL_STREAM_DRAW);
+  readAsSurfaces();
+  fill<FlatVertex>(layers_, {}, GL_STREAM_DRAW);
+  attribute(0, 4, GL_FLOAT, sizeof(FlatVertex), offsetof(FlatVertex, clip));
+  attribute(1, 4, GL_FLOAT, sizeof(FlatVertex), offsetof(FlatVertex, colour));
+  makeShadowMap();
+}
+
+Image Rasteriser::draw(const Picture& picture) {
+  makeTarget(picture);
+  fill<SurfaceVertex>(bodies_, picture.bodies, GL_STREAM_DRAW);
+  drawShadowMap(picture);
+  chooseParts(picture);
+  drawLayers(picture);
+  Image image = readBack();
+  if (gl_.GetError() != GL_NO_ERROR) throw Error("OpenGL reports an error after drawing");
+  return image;
+}
+
+GLint Rasteriser::limit(GLenum name) const {
+  std::array<GLint, 2> value{};
+  gl_.GetIntegerv(name, value.data());
+  return value[0];
+}
+
+GLuint Rasteriser::shader(GLenum kind, const char* source) const {
+  const GLuint name = gl_.CreateShader(kind);
+  gl_.ShaderSource(name, 1, &source, nullptr);
+  gl_.CompileShader(name);
+  GLint compiled = GL_FALSE;
+  gl_.GetShaderiv(name, GL_COMPILE_STATUS, &compiled);
+  if (compiled == GL_TRUE) return name;
+  std::array<GLchar, 1024> log{};
+  gl_.GetShaderInfoLog(name, log.size(), nullptr, log.data());
+  throw Error(std::string("the driver rejects a shader: ") + log.data());
+}
+
+GLuint Rasteriser::program(const char* vertex, const char* fragment) const {
+  const GLuint name = gl_.CreateProgram();
+  gl_.AttachShader(name, shader(GL_VERTEX_SHADER, vertex));
+  gl_.AttachShader(name, shader(GL_FRAGMENT_SHADER, fragment));
+  gl_.LinkProgram(name);
+  GLint linked = GL_FALSE;
+  gl_.GetProgramiv(name, GL_LINK_STATUS, &linked);
+  if (linked == GL_TRUE) return name;
+  std::array<GLchar, 1024> log{};
+  gl_.GetProgramInfoLog(name, log.size(), nullptr, log.data());
+  throw Error(std::string("the driver cannot link the shaders: ") + log.data());
+}
+
+Rasteriser::Buffer Rasteriser::makeBuffer() const {
+  Buffer buffer;
+  gl_.GenVertexArrays(1, &buffer.array);
+  gl_.GenBuffers(1, &buffer.vertices);
+  return buffer;
+}
+
+void Rasteriser::attribute(GLuint place, GLint size, GLenum type, std::size_t stride,
+                           std::size_t offset) const {
+  gl_.EnableVertexAttribArray(place);
+  gl_.VertexAttribPointer(place, size, type, type == GL_UNSIGNED_BYTE ? GL_TRUE : GL_FALSE,
+                          static_cast<GLsizei>(stride),
+                          // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL passes offsets so
+                          reinterpret_cast<const void*>(offset));
+}
+
+/// Leaves the buffer bound.
+template <typename Vertex>
+void Rasteriser::fill(const Buffer& buffer, std::span<const Vertex> vertices, GLenum usage) const {
+  gl_.BindVertexArray(buffer.array);
+  gl_.BindBuffer(GL_ARRAY_BUFFER, buffer.vertices);
+  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size_bytes()), vertices.data(),
+                 usage);
+}
+
+void Rasteriser::readAsSurfaces() const {
+  attribute(0, 3, GL_FLOAT, sizeof(SurfaceVertex), offsetof(SurfaceVertex, place));
+  attribute(1, 3, GL_FLOAT, sizeof(SurfaceVertex), offsetof(SurfaceVertex, normal));
+  attribute(2, 4, GL_UNSIGNED_BYTE, sizeof(SurfaceVertex), offsetof(SurfaceVertex, colour));
+}
+
+void Rasteriser::makeShadowMap() {
+  gl_.GenTextures(1, &shadowMap_);
+  gl_.BindTexture(GL_TEXTURE_2D, shadowMap_);
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT16, shadowSide, shadowSide, 0,
+                 GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT, nullptr);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+
+  gl_.GenFramebuffers(1, &shadowTarget_);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, shadowTarget_);
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, shadowMap_, 0);
+  gl_.DrawBuffer(GL_NONE);
+  gl_.ReadBuffer(GL_NONE);
+  if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    throw Error("the driver cannot draw shadows");
+}
+
+void Rasteriser::checkFramebuffer(const Picture& picture) const {
+  if (gl_.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
+  throw Error("the driver cannot draw into a framebuffer of " + std::to_string(picture.width) +
+              " x " + std::to_string(picture.height) + " pixels");
+}
+
+/// Keeps the one there is if it has the size.
+void Rasteriser::makeTarget(const Picture& picture) {
+  if (picture.width == target_.width && picture.height == target_.height) return;
+  std::array<GLint, 2> viewport{};
+  gl_.GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
+  const GLint side = limit(GL_MAX_RENDERBUFFER_SIZE);
+  const GLint widest = std::min(side, viewport[0]);
+  const GLint highest = std::min(side, viewport[1]);
+  if (picture.width > widest || picture.height > highest)
+    throw Error("a picture of " + std::to_string(picture.width) + " x " +
+                std::to_string(picture.height) + " pixels: this driver allows " +
+                std::to_string(widest) + " x " + std::to_string(highest));
+
+  gl_.DeleteFramebuffers(1, &target_.samples);
+  gl_.DeleteFramebuffers(1, &target_.pixels);
+  gl_.DeleteRenderbuffers(static_cast<GLsizei>(target_.parts.size()), target_.parts.data());
+  target_ = {};
+  gl_.GenFramebuffers(1, &target_.samples);
+  gl_.GenFramebuffers(1, &target_.pixels);
+  gl_.GenRenderbuffers(static_cast<GLsizei>(target_.parts.size()), target_.parts.data());
+  const auto attach = [&](GLuint part, GLenum attachment, GLenum format, GLsizei samples) {
+    gl_.BindRenderbuffer(GL_RENDERBUFFER, part);
+    gl_.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, picture.width,
+                                       picture.height);
+    gl_.FramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, part);
+  };
+  const GLsizei samples = std::min(wantedSamples, limit(GL_MAX_SAMPLES));
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, target_.samples);
+  attach(target_.parts[0], GL_COLOR_ATTACHMENT0, GL_RGBA8, samples);
+  attach(target_.parts[1], GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, samples);
+  checkFramebuffer(picture);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, target_.pixels);
+  attach(target_.parts[2], GL_COLOR_ATTACHMENT0, GL_RGBA8, 0);
+  checkFramebuffer(picture);
+  target_.width = picture.width;
+  target_.height = picture.height;
+}
+
+void Rasteriser::setMatrix(GLuint program, const char* name, const Eigen::Matrix4d& matrix) const {
+  const Eigen::Matrix4f single = matrix.cast<float>();
+  gl_.UniformMatrix4fv(gl_.GetUniformLocation(program, name), 1, GL_FALSE, single.data());
+}
+
+void Rasteriser::drawRanges(const std::vector<Range>& ranges) const {
+  std::vector<GLint> firsts;
+  std::vector<GLsizei> counts;
+  for (const Range& range : ranges) {
+    firsts.push_back(static_cast<GLint>(range.first));
+    counts.push_back(static_cast<GLsizei>(range.count));
+  }
+  gl_.MultiDrawArrays(GL_TRIANGLES, firsts.data(), counts.data(),
+                      static_cast<GLsizei>(firsts.size()));
+}
+
+void Rasteriser::drawShadowMap(const Picture& picture) const {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, shadowTarget_);
+  // The rim stays lit, and with it what lies outside.
+  gl_.Viewport(1, 1, shadowSide - 2, shadowSide - 2);
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthFunc(GL_LEQUAL);
+  gl_.Clear(GL_DEPTH_BUFFER_BIT);
+  // Moves what is drawn away from the sun, so that a lit face does not shade itself.
+  gl_.Enable(GL_POLYGON_OFFSET_FILL);
+  gl_.PolygonOffset(3.0F, 8.0F);
+  gl_.UseProgram(caster_);
+  setMatrix(caster_, "localToSun", picture.localToSun);
+  setMatrix(caster_, "toLocal", movedBy(sceneOrigin_ - picture.localOrigin));
+  gl_.BindVertexArray(casters_.array);
+  gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(casterCount_));
+  gl_.BindVertexArray(bodies_.array);
+  for (const DrawnBody& body : picture.drawnBodies) {
+    if (body.opacity < 1.0F) continue;
+    setMatrix(caster_, "toLocal", body.toLocal.matrix().cast<double>());
+    drawRanges({body.surfaces});
+  }
+  gl_.Disable(GL_POLYGON_OFFSET_FILL);
+}
+
+void Rasteriser::setUniforms(const Picture& picture) const {
+  const auto vector4 = [&](GLuint program, const char* name, const Eigen::Vector4f& value) {
+    gl_.Uniform4f(gl_.GetUniformLocation(program, name), value.x(), value.y(), value.z(),
+                  value.w());
+  };
+  const auto vector3 = [&](GLuint program, const char* name, const Eigen::Vector3f& value) {
+    gl_.Uniform3f(gl_.GetUniformLocation(program, name), value.x(), value.y(), value.z());
+  };
+  const auto number = [&](GLuint program, const char* name, double value) {
+    gl_.Uniform1f(gl_.GetUniformLocation(program, name), static_cast<float>(value));
+  };
+  gl_.UseProgram(lit_);
+  setMatrix(lit_, "localToClip", picture.localToClip);
+  setMatrix(lit_, "localToSun", picture.localToSun);
+  vector4(lit_, "viewer", picture.viewer.cast<float>());
+  vector3(lit_, "sun", picture.sun.cast<float>());
+  gl_.ActiveTexture(GL_TEXTURE0);
+  gl_.BindTexture(GL_TEXTURE_2D, shadowMap_);
+  gl_.Uniform1i(gl_.GetUniformLocation(lit_, "shadowMap"), 0);
+  number(lit_, "shadowScale", 0.5 * (shadowSide - 2) / shadowSide);
+  // The grid's lines stand at round world coordinates.
+  number(lit_, "gridSpacing", picture.gridSpacing);
+  gl_.Uniform2f(gl_.GetUniformLocation(lit_, "gridStart"),
+                static_cast<float>(std::remainder(picture.localOrigin.x(), picture.gridSpacing)),
+                static_cast<float>(std::remainder(picture.localOrigin.y(), picture.gridSpacing)));
+  vector3(lit_, "hazeColour", picture.hazeColour);
+  const double hazeDepth = picture.hazeEnd - picture.hazeStart;
+  number(lit_, "hazeStart", picture.hazeStart);
+  number(lit_, "hazePerMetre", hazeDepth > 0.0 ? 1.0 / hazeDepth : 0.0);
+
+  gl_.UseProgram(edge_);
+  setMatrix(edge_, "localToClip", picture.localToClip);
+  vector4(edge_, "wallTint", picture.wallTint);
+  gl_.Uniform2f(gl_.GetUniformLocation(edge_, "halfSize"), 0.5F * static_cast<float>(picture.width),
+                0.5F * static_cast<float>(picture.height));
+  number(edge_, "pixelsPerMetre", picture.pixelsPerMetre);
+  number(edge_, "width", picture.edgeWidth);
+  number(edge_, "faintest", picture.edgeFaintest);
+  number(edge_, "nearer", picture.edgeNearer);
+}
+
+/// Finds what of the scene can be seen.
+void Rasteriser::chooseParts(const Picture& picture) {
+  const Eigen::Matrix4d toClip = picture.localToClip * movedBy(sceneOrigin_ - picture.localOrigin);
+  seenSurfaces_.clear();
+  seenEdges_.clear();
+  for (const SceneModel::Part& part : parts_) {
+    if (outside(part.box, toClip)) continue;
+    join(part.surfaces, seenSurfaces_);
+    join(part.edges, seenEdges_);
+  }
+}
+
+void Rasteriser::drawScene(const Picture& picture) const {
+  gl_.UseProgram(lit_);
+  setMatrix(lit_, "toLocal", movedBy(sceneOrigin_ - picture.localOrigin));
+  gl_.Uniform4f(gl_.GetUniformLocation(lit_, "wallTint"), picture.wallTint.x(),
+                picture.wallTint.y(), picture.wallTint.z(), picture.wallTint.w());
+  gl_.Uniform1f(gl_.GetUniformLocation(lit_, "paleness"), 0.0F);
+  gl_.Uniform1f(gl_.GetUniformLocation(lit_, "opacity"), 1.0F);
+  gl_.BindVertexArray(surfaces_.array);
+  drawRanges(seenSurfaces_);
+}
+
+void Rasteriser::drawEdges(const Picture& picture) const {
+  gl_.UseProgram(edge_);
+  setMatrix(edge_, "toLocal", movedBy(sceneOrigin_ - picture.localOrigin));
+  gl_.BindVertexArray(edges_.array);
+  gl_.DepthMask(GL_FALSE);
+  drawRanges(seenEdges_);
+  gl_.DepthMask(GL_TRUE);
+}
+
+void Rasteriser::drawBodies(const Picture& picture, bool ghosts) const {
+  gl_.UseProgram(lit_);
+  gl_.Uniform4f(gl_.GetUniformLocation(lit_, "wallTint"), 0.0F, 0.0F, 0.0F, 0.0F);
+  gl_.BindVertexArray(bodies_.array);
+  for (const DrawnBody& body : picture.drawnBodies) {
+    if ((body.opacity < 1.0F) != ghosts) continue;
+    setMatrix(lit_, "toLocal", body.toLocal.matrix().cast<double>());
+    gl_.Uniform1f(gl_.GetUniformLocation(lit_, "paleness"), body.paleness);
+    gl_.Uniform1f(gl_.GetUniformLocation(lit_, "opacity"), body.opacity);
+    drawRanges({body.surfaces});
+  }
+}
+
+void Rasteriser::drawLayers(const Picture& picture) const {
+  const std::array<const Triangles*, 4> layers = {&picture.background, &picture.ribbons,
+                                                  &picture.markers, &picture.overlay};
+  std::array<Range, layers.size()> ranges;
+  Triangles all;
+  for (std::size_t k = 0; k < layers.size(); ++k) {
+    ranges[k] = {all.size(), layers[k]->size()};
+    all.insert(all.end(), layers[k]->begin(), layers[k]->end());
+  }
+  const auto& [background, ribbons, markers, overlay] = ranges;
+  fill<FlatVertex>(layers_, all, GL_STREAM_DRAW);
+  setUniforms(picture);
+  const auto paint = [&](const Range& range) {
+    gl_.UseProgram(flat_);
+    gl_.BindVertexArray(layers_.array);
+    drawRanges({range});
+  };
+
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, target_.samples);
+  gl_.Viewport(0, 0, picture.width, picture.height);
+  gl_.ClearColor(1.0F, 1.0F, 1.0F, 1.0F);
+  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  gl_.Disable(GL_BLEND);
+  gl_.Enable(GL_DEPTH_TEST);
+  drawBodies(picture, false);
+  drawScene(picture);
+  // Where nothing is in front of it.
+  paint(background);
+  gl_.Enable(GL_BLEND);
+  drawEdges(picture);
+  // Depth first, then colour where it is nearest: ghosts do not show through themselves.
+  gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  drawBodies(picture, true);
+  gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+
+  // Ribbons pass for nearer than they are: vehicles once more, over their ends.
+  gl_.DepthMask(GL_FALSE);
+  paint(ribbons);
+  gl_.DepthMask(GL_TRUE);
+  drawBodies(picture, false);
+  drawBodies(picture, true);
+  paint(markers);
+
+  gl_.Disable(GL_DEPTH_TEST);
+  paint(overlay);
+}
+
+Image Rasteriser::readBack() const {
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_.samples);
+  gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, target_.pixels);
+  gl_.BlitFramebuffer(0, 0, target_.width, target_.height, 0, 0, target_.width, target_.height,
+                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, target_.pixels);
+  gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
+  Image image(target_.width, target_.height);
+  gl_.ReadPixels(0, 0, target_.width, target_.height, GL_RGB, GL_UNSIGNED_BYTE,
+                 image.pixels().data());
+  return image;
+}
 
 }  // namespace bumper::drawing

@@ -164,6 +164,12 @@ void checkInstants(const Recording& recording, const std::vector<double>& instan
   }
 }
 
+[[noreturn]] void throwMoment(double time, const std::string& reason) {
+  std::ostringstream message;
+  message << "SnapshotOptions::moment is " << time << " s: " << reason;
+  throw Error(message.str());
+}
+
 /// The poses from start to end, at least a hundredth of a vehicle length and a 3000th of the way
 /// apart.
 std::vector<RecordedPose> thinnedPath(const RecordedVehicle& vehicle, double start, double end) {
@@ -179,6 +185,16 @@ std::vector<RecordedPose> thinnedPath(const RecordedVehicle& vehicle, double sta
   }
   path.push_back(*last);
   return path;
+}
+
+/// The part of a path up to a time, with the vehicle's own place at its end.
+std::vector<RecordedPose> upTo(double time, const std::vector<RecordedPose>& path,
+                               const RecordedVehicle& vehicle) {
+  const auto after = std::ranges::upper_bound(path, time, {}, &RecordedPose::time);
+  std::vector<RecordedPose> part(path.begin(), after);
+  if (after == path.begin() || after == path.end()) return part;
+  if (const auto here = poseAt(vehicle, time)) part.push_back(*here);
+  return part;
 }
 
 void labelHardest(std::vector<DrawnImpact>& impacts) {
@@ -198,18 +214,27 @@ RunExcerpt excerptOf(const Recording& recording, const SnapshotOptions& options)
   checkInstants(recording, options.instants);
   RunExcerpt run;
   const Span whole = wholeRun(recording);
-  if (whole.start > whole.end) return run;
+  if (whole.start > whole.end) {
+    if (options.moment) throwMoment(*options.moment, "nothing was recorded");
+    return run;
+  }
   std::vector<double> instants = options.instants;
-  if (instants.empty()) {
+  std::ranges::sort(instants);
+  run.start = instants.empty() ? whole.start : instants.front();
+  run.end = instants.empty() ? whole.end : instants.back();
+  run.now = options.moment.value_or(run.end);
+  if (!(run.now >= run.start && run.now <= run.end)) {
+    std::ostringstream range;
+    range << "it must lie in " << run.start << " s to " << run.end << " s";
+    throwMoment(run.now, range.str());
+  }
+  if (options.moment) {
+    std::erase_if(instants, [&](double time) { return time >= run.now; });
+    instants.push_back(run.now);
+  } else if (instants.empty()) {
     const Span shown =
         options.view == SnapshotView::three_quarter ? timeOfInterest(recording) : whole;
     instants = chosenInstants(recording, shown);
-    run.start = whole.start;
-    run.end = whole.end;
-  } else {
-    std::ranges::sort(instants);
-    run.start = instants.front();
-    run.end = instants.back();
   }
 
   const auto vehicles = recording.vehicles();
@@ -218,8 +243,11 @@ RunExcerpt excerptOf(const Recording& recording, const SnapshotOptions& options)
     for (const double time : instants) {
       if (const auto pose = poseAt(vehicles[v], time)) run.poses.push_back({v, *pose, false});
     }
-    if (run.poses.size() > drawn) run.poses.back().last = true;
+    // In a replay a vehicle is solid while it is recorded, and leaves its ghosts behind after.
+    if (run.poses.size() > drawn)
+      run.poses.back().last = !options.moment || run.poses.back().pose.time == run.now;
     run.paths.push_back(thinnedPath(vehicles[v], run.start, run.end));
+    run.trails.push_back(upTo(run.now, run.paths.back(), vehicles[v]));
   }
   std::ranges::stable_sort(run.poses, {}, [](const DrawnPose& drawn) { return drawn.pose.time; });
 
@@ -227,7 +255,7 @@ RunExcerpt excerptOf(const Recording& recording, const SnapshotOptions& options)
   for (std::size_t k = 0; k < impacts.size(); ++k) {
     const ImpactEvent event = impacts[k].event();
     if (options.instants.empty() || (event.time >= run.start && event.time <= run.end))
-      run.impacts.push_back({k + 1, event, false});
+      run.impacts.push_back({k + 1, event, false, !options.moment || event.time <= run.now});
   }
   labelHardest(run.impacts);
   return run;

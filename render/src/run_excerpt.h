@@ -20,14 +20,17 @@ struct DrawnImpact {
   std::size_t number = 0;  ///< from 1, in the recording's order
   ImpactEvent event;       ///< its names live as long as the recording
   bool labelled = false;   ///< has a number and an arrow; the others are small dots
+  bool shown = true;       ///< not: it is yet to come
 };
 
 /// The part of a recording that a picture shows.
 struct RunExcerpt {
-  double start = 0.0;                            ///< s
-  double end = 0.0;                              ///< s
-  std::vector<DrawnPose> poses;                  ///< in order of time
-  std::vector<std::vector<RecordedPose>> paths;  ///< by vehicle, thinned out
+  double start = 0.0;            ///< s
+  double end = 0.0;              ///< s: of the part that the picture frames
+  double now = 0.0;              ///< s: up to which it is shown; the end unless a moment was given
+  std::vector<DrawnPose> poses;  ///< in order of time
+  std::vector<std::vector<RecordedPose>> paths;   ///< by vehicle, thinned out, up to the end
+  std::vector<std::vector<RecordedPose>> trails;  ///< the same up to now
   std::vector<DrawnImpact> impacts;
 };
 
@@ -36,10 +39,11 @@ constexpr double reachOfImpact = 15.0;
 /// … or, without impacts, before the end.
 constexpr double reachOfEnd = 30.0;
 
-/// What the options ask for. Throws Error if at one of their instants no vehicle was recorded.
+/// What the options ask for. Throws Error if at one of their instants no vehicle was recorded, or
+/// their moment lies outside what is drawn.
 RunExcerpt excerptOf(const Recording& recording, const SnapshotOptions& options);
 
-/// The hardest of the drawn impacts; null without impacts.
+/// The hardest of the impacts, shown or yet to come; null without impacts.
 const DrawnImpact* hardest(const RunExcerpt& run);
 
 /// The largest speed on the drawn paths, m/s.

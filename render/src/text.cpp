@@ -1,53 +1,103 @@
 #include "text.h"
 
-#include <stb_easy_font.h>
+#define STBTT_STATIC
+#define STB_TRUETYPE_IMPLEMENTATION
+#include <stb_truetype.h>
 
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
+
+#include "bumper/response/error.h"
+
+extern const unsigned char bumperFontFile[];  // NOLINT(*-avoid-c-arrays): the file's bytes
 
 namespace bumper::drawing {
 
 namespace {
 
-/// What the font can draw.
-std::string printable(std::string_view line) {
-  std::string result;
-  for (const char letter : line) {
-    const auto code = static_cast<unsigned char>(letter);
-    if (code >= 0x80 && code < 0xC0) continue;  // inside a UTF-8 character
-    result += code >= ' ' && code <= '~' ? letter : '?';
+class Font {
+ public:
+  Font() {
+    if (stbtt_InitFont(&info_, bumperFontFile, 0) == 0)
+      throw Error("the font that bumper was built with is no TrueType font");
+    perEm_ = stbtt_ScaleForMappingEmToPixels(&info_, 1.0F);
   }
-  return result;
+
+  [[nodiscard]] bool has(char32_t letter) const { return indexOf(letter) != 0; }
+
+  [[nodiscard]] double advance(char32_t letter) const {
+    int advance = 0;
+    stbtt_GetGlyphHMetrics(&info_, indexOf(letter), &advance, nullptr);
+    return emHeight * advance * static_cast<double>(perEm_);
+  }
+
+  [[nodiscard]] Glyph glyph(char32_t letter, double size, double share) const {
+    const float scale = perEm_ * static_cast<float>(size);
+    const auto shift = static_cast<float>(share);
+    const int index = indexOf(letter);
+    int right = 0;
+    int bottom = 0;
+    Glyph glyph;
+    stbtt_GetGlyphBitmapBoxSubpixel(&info_, index, scale, scale, shift, 0.0F, &glyph.left,
+                                    &glyph.top, &right, &bottom);
+    glyph.width = right - glyph.left;
+    glyph.height = bottom - glyph.top;
+    glyph.coverage.resize(static_cast<std::size_t>(glyph.width) *
+                          static_cast<std::size_t>(glyph.height));
+    if (!glyph.coverage.empty()) {
+      stbtt_MakeGlyphBitmapSubpixel(&info_, glyph.coverage.data(), glyph.width, glyph.height,
+                                    glyph.width, scale, scale, shift, 0.0F, index);
+    }
+    return glyph;
+  }
+
+ private:
+  [[nodiscard]] int indexOf(char32_t letter) const {
+    return stbtt_FindGlyphIndex(&info_, static_cast<int>(letter));
+  }
+
+  stbtt_fontinfo info_{};
+  float perEm_ = 0.0F;
+};
+
+const Font& font() {
+  static const Font instance;
+  return instance;
 }
 
 }  // namespace
 
-std::vector<Eigen::AlignedBox2d> textBoxes(std::string_view line) {
-  // Four corners of x, y, z and colour, 16 bytes each.
-  constexpr std::size_t quadSize = 64;
-  constexpr std::size_t mostQuadsPerLetter = 32;
-  std::string letters = printable(line);
-  std::vector<char> buffer(quadSize * mostQuadsPerLetter * (letters.size() + 1));
-  const int quads = stb_easy_font_print(0.0F, 0.0F, letters.data(), nullptr, buffer.data(),
-                                        static_cast<int>(buffer.size()));
-  std::vector<Eigen::AlignedBox2d> boxes;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(quads); ++k) {
-    std::array<float, 2> low{};
-    std::array<float, 2> high{};
-    std::memcpy(low.data(), &buffer[k * quadSize], sizeof(low));
-    std::memcpy(high.data(), &buffer[k * quadSize + quadSize / 2], sizeof(high));
-    boxes.emplace_back(Eigen::Vector2d(static_cast<double>(low[0]), static_cast<double>(low[1])),
-                       Eigen::Vector2d(static_cast<double>(high[0]), static_cast<double>(high[1])));
+std::u32string lettersOf(std::string_view line) {
+  std::u32string letters;
+  for (std::size_t k = 0; k < line.size();) {
+    const auto lead = static_cast<unsigned char>(line[k++]);
+    if (lead >= 0x80 && lead < 0xC0) continue;  // what is left of a broken letter
+    const int rest = lead < 0x80 ? 0 : lead < 0xE0 ? 1 : lead < 0xF0 ? 2 : 3;
+    auto letter = static_cast<char32_t>(rest == 0 ? lead : lead & (0x3FU >> rest));
+    int read = 0;
+    for (; read < rest && k < line.size(); ++read, ++k) {
+      const auto next = static_cast<unsigned char>(line[k]);
+      if ((next & 0xC0U) != 0x80U) break;
+      letter = (letter << 6U) | (next & 0x3FU);
+    }
+    const bool printable = read == rest && letter >= U' ' && letter != 0x7F && font().has(letter);
+    letters += printable ? letter : U'?';
   }
-  return boxes;
+  return letters;
 }
 
+double advanceOf(char32_t letter) { return font().advance(letter); }
+
 double textWidth(std::string_view line) {
-  std::string letters = printable(line);
-  return stb_easy_font_width(letters.data());
+  double width = 0.0;
+  for (const char32_t letter : lettersOf(line)) width += advanceOf(letter);
+  return width;
+}
+
+Glyph glyphOf(char32_t letter, double size, double share) {
+  return font().glyph(letter, size, share);
 }
 
 std::string fixed(double value, int decimals) {

@@ -216,6 +216,13 @@ class Builder {
 
 }  // namespace
 
+Vector3f paintOf(std::size_t vehicle) {
+  static const std::array<Vector3f, 5> paints = {
+      Vector3f(0.86F, 0.14F, 0.13F), Vector3f(0.15F, 0.36F, 0.80F), Vector3f(0.95F, 0.55F, 0.10F),
+      Vector3f(0.45F, 0.20F, 0.62F), Vector3f(0.10F, 0.52F, 0.45F)};
+  return paints[vehicle % paints.size()];
+}
+
 std::vector<ShapeTriangle> vehicleShape(const VehicleParameters& vehicle, const Vector3f& paint) {
   return Builder(vehicle, paint).build();
 }

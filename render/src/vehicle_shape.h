@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "bumper/response/vehicle_parameters.h"
@@ -19,5 +20,8 @@ struct ShapeTriangle {
 /// with windows, wheels, pale lamps in front, red ones behind.
 std::vector<ShapeTriangle> vehicleShape(const VehicleParameters& vehicle,
                                         const Eigen::Vector3f& paint);
+
+/// The paint of the vehicle with an index in the recording.
+Eigen::Vector3f paintOf(std::size_t vehicle);
 
 }  // namespace bumper::drawing

@@ -3,11 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <map>
-#include <utility>
+#include <optional>
 #include <vector>
 
+#include "scene_model.h"
 #include "speed_colours.h"
 #include "vehicle_shape.h"
 
@@ -15,7 +14,6 @@ namespace bumper::drawing {
 
 namespace {
 
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Eigen::Vector4d;
@@ -23,13 +21,8 @@ using Eigen::Vector4d;
 const Vector3f horizonColour(0.90F, 0.92F, 0.93F);
 const Vector3f zenithColour(0.50F, 0.66F, 0.82F);
 /// Walls in the top view: a vertical one shows nothing but its edges there.
-const Vector3f wallColour(1.00F, 0.74F, 0.52F);
+const Colour wallColour(1.00F, 0.74F, 0.52F, 1.0F);
 const Vector3f nowhereColour(0.82F, 0.84F, 0.82F);  ///< where there is no scene
-
-/// As walls are told from the ground: |vertical component of the unit normal|.
-constexpr double uprightLimit = 0.3;
-/// An edge is drawn where surfaces meet at more than about 25°.
-constexpr double smoothCosine = 0.9;
 
 constexpr double ribbonWidth = 0.7;        ///< m …
 constexpr double ribbonLeastPixels = 4.0;  ///< … but at least
@@ -44,89 +37,38 @@ constexpr double arrowheadPixels = 15.0;  ///< … of this length
 constexpr float ghostOpacity = 0.72F;
 constexpr float ghostPaleness = 0.45F;
 
-Colour opaque(const Vector3f& colour) { return {colour.x(), colour.y(), colour.z(), 1.0F}; }
-
-Vector3d normalOf(const std::array<Vector3d, 3>& c) {
-  const Vector3d product = (c[1] - c[0]).cross(c[2] - c[0]);
-  const double size = product.norm();
-  return size > 0.0 ? Vector3d(product / size) : Vector3d::Zero();
-}
-
-std::array<Vector3d, 3> cornersOf(const Scene& scene, const Scene::Triangle& triangle) {
-  return {scene.corner(triangle, 0), scene.corner(triangle, 1), scene.corner(triangle, 2)};
-}
-
-struct Edge {
-  Vector3d firstNormal = Vector3d::Zero();
-  int faces = 0;
-  bool sharp = false;
-  bool upright = false;
-  std::uint32_t mesh = 0;
-  Vector3d from;
-  Vector3d to;
-};
-
-/// The edges of upright surfaces where they end or turn.
-std::vector<Edge> edgesOf(const Scene& scene) {
-  // Vertices of one place are one, whether or not the file shares them.
-  const auto before = [&](std::uint32_t a, std::uint32_t b) {
-    const Vector3d& p = scene.vertices[a];
-    const Vector3d& q = scene.vertices[b];
-    return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
-  };
-  std::map<std::uint32_t, std::uint32_t, decltype(before)> places(before);
-  const auto placeOf = [&](std::uint32_t corner) {
-    return places.try_emplace(corner, corner).first->second;
-  };
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Edge> edges;
-  for (const Scene::Triangle& triangle : scene.triangles) {
-    const Vector3d normal = normalOf(cornersOf(scene, triangle));
-    const bool upright = std::abs(normal.z()) < uprightLimit;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = placeOf(triangle.corners[k]);
-      const std::uint32_t b = placeOf(triangle.corners[(k + 1) % 3]);
-      Edge& edge = edges[std::minmax(a, b)];
-      if (edge.faces++ == 0) {
-        edge.firstNormal = normal;
-        edge.from = scene.vertices[a];
-        edge.to = scene.vertices[b];
-      } else if (std::abs(edge.firstNormal.dot(normal)) < smoothCosine) {
-        edge.sharp = true;
-      }
-      if (upright) {
-        edge.upright = true;
-        edge.mesh = triangle.mesh;
-      }
-    }
-  }
-  std::vector<Edge> result;
-  for (const auto& [ends, edge] : edges) {
-    if (edge.upright && (edge.sharp || edge.faces == 1)) result.push_back(edge);
-  }
-  return result;
+Colour withOpacity(const Vector3f& colour, float opacity) {
+  return {colour.x(), colour.y(), colour.z(), opacity};
 }
 
 }  // namespace
-
-Vector3f paintOf(std::size_t vehicle) {
-  static const std::array<Vector3f, 5> paints = {
-      Vector3f(0.86F, 0.14F, 0.13F), Vector3f(0.15F, 0.36F, 0.80F), Vector3f(0.95F, 0.55F, 0.10F),
-      Vector3f(0.45F, 0.20F, 0.62F), Vector3f(0.10F, 0.52F, 0.45F)};
-  return paints[vehicle % paints.size()];
-}
 
 WorldPainter::WorldPainter(const Camera& camera, Picture& picture)
     : camera_(camera), picture_(picture) {
   picture_.width = camera.width;
   picture_.height = camera.height;
+  picture_.perspective = camera.perspective;
   picture_.gridSpacing = std::max(1.0, roundedDown(0.45 * camera.extent));
-  // A multiple of the grid, so that its lines stand at round world coordinates.
-  picture_.origin = (camera.focus / picture_.gridSpacing).array().round() * picture_.gridSpacing;
+  picture_.localOrigin = camera.focus.array().round();
+  Eigen::Matrix4d toCamera = Eigen::Matrix4d::Identity();
+  toCamera.topLeftCorner<3, 3>() = camera.axes;
+  toCamera.topRightCorner<3, 1>() = camera.axes * (picture_.localOrigin - camera.eye);
+  picture_.localToClip = camera.projection * toCamera;
+  picture_.pixelsPerMetre = 0.5 * camera.height * camera.projection(1, 1);
+  picture_.sun = camera.sun;
   if (camera.perspective) {
-    const double distance = (camera.eye - camera.focus).norm();
+    picture_.viewer << camera.eye - picture_.localOrigin, 1.0;
+    picture_.edgeWidth = std::max(0.9, camera.height / 600.0);
+    picture_.edgeNearer = 4e-4;
     picture_.hazeColour = horizonColour;
-    picture_.hazeStart = 1.6 * distance;
-    picture_.hazeEnd = 9.0 * distance + 200.0;
+    picture_.hazeStart = camera.hazeStart;
+    picture_.hazeEnd = camera.hazeEnd;
+  } else {
+    picture_.viewer << camera.back(), 0.0;
+    picture_.wallTint = wallColour;
+    picture_.edgeWidth = std::max(0.9, camera.height / 400.0);
+    picture_.edgeFaintest = 0.6;
+    picture_.edgeNearer = 1e-3;
   }
   setSun();
   addBackground();
@@ -134,17 +76,16 @@ WorldPainter::WorldPainter(const Camera& camera, Picture& picture)
 
 void WorldPainter::setSun() {
   // A square map around what the camera is about.
-  const double radius = camera_.perspective ? 3.0 * camera_.extent + 10.0 : 1.05 * camera_.extent;
+  const double radius = camera_.perspective ? 1.6 * camera_.extent + 8.0 : 1.05 * camera_.extent;
   const double depth = 2.0 * radius + 200.0;
   Eigen::Matrix3d axes;
   axes.row(0) = Vector3d::UnitZ().cross(camera_.sun).normalized();
   axes.row(1) = camera_.sun.cross(Vector3d(axes.row(0)));
   axes.row(2) = -camera_.sun;
   const Vector3d scale(1.0 / radius, 1.0 / radius, 1.0 / depth);
-  Eigen::Matrix4d view = Eigen::Matrix4d::Identity();
-  view.topLeftCorner<3, 3>() = scale.asDiagonal() * axes;
-  view.topRightCorner<3, 1>() = view.topLeftCorner<3, 3>() * (picture_.origin - camera_.focus);
-  picture_.sunView = view.cast<float>();
+  picture_.localToSun.topLeftCorner<3, 3>() = scale.asDiagonal() * axes;
+  picture_.localToSun.topRightCorner<3, 1>() =
+      picture_.localToSun.topLeftCorner<3, 3>() * (picture_.localOrigin - camera_.focus);
 }
 
 void WorldPainter::addBackground() {
@@ -153,22 +94,23 @@ void WorldPainter::addBackground() {
     Vector3f colour;
   };
   std::vector<Stop> stops = {{-1.0, nowhereColour}, {1.0, nowhereColour}};
-  if (camera_.perspective) {
+  const Vector3d flat(-camera_.back().x(), -camera_.back().y(), 0.0);
+  // Seen from straight above there is no horizon.
+  if (camera_.perspective && flat.norm() > 0.1) {
     // The horizon is where horizontal directions end.
-    const Vector3d ahead = Vector3d(-camera_.back().x(), -camera_.back().y(), 0.0).normalized();
-    const Vector4d far = camera_.projection *
-                         (camera_.axes * ahead).homogeneous().cwiseProduct(Vector4d(1, 1, 1, 0));
+    const Vector4d far =
+        camera_.projection *
+        (camera_.axes * flat.normalized()).homogeneous().cwiseProduct(Vector4d(1, 1, 1, 0));
     const double horizon = far.y() / far.w();
     stops = {{std::min(-1.0, horizon - 2.0), nowhereColour},
              {horizon, horizonColour},
-             {horizon + 1.6, zenithColour}};
+             {horizon + 1.6, zenithColour},
+             {std::max(1.0, horizon + 1.6), zenithColour}};
   }
   for (std::size_t k = 1; k < stops.size(); ++k) {
-    const auto corner = [&](double x, const Stop& stop) {
-      Vertex vertex;
-      vertex.clip = {static_cast<float>(x), static_cast<float>(stop.y), 0.0F, 1.0F};
-      vertex.colour = {stop.colour.x(), stop.colour.y(), stop.colour.z(), 1.0F};
-      return vertex;
+    const auto corner = [&](float x, const Stop& stop) {
+      return FlatVertex{{x, static_cast<float>(stop.y), 1.0F, 1.0F},
+                        {stop.colour.x(), stop.colour.y(), stop.colour.z(), 1.0F}};
     };
     const Stop& low = stops[k - 1];
     const Stop& high = stops[k];
@@ -178,91 +120,10 @@ void WorldPainter::addBackground() {
   }
 }
 
-Vertex WorldPainter::vertexAt(const Vector3d& point, const Colour& colour,
-                              const Lighting& lighting) const {
+FlatVertex WorldPainter::vertexAt(const Vector3d& point, const Colour& colour) const {
   const Eigen::Vector4f clip = camera_.clip(point).cast<float>();
-  const Vector3f world = (point - picture_.origin).cast<float>();
   return {{clip.x(), clip.y(), clip.z(), clip.w()},
-          {colour.x(), colour.y(), colour.z(), colour.w()},
-          {world.x(), world.y(), world.z()},
-          lighting};
-}
-
-Lighting WorldPainter::lightingOf(const Corners& corners) const {
-  Vector3d normal = normalOf(corners);
-  // Files do not always say which side is out: the side that is seen is.
-  const Vector3d centre = (corners[0] + corners[1] + corners[2]) / 3.0;
-  if (normal.dot(camera_.towards(centre)) < 0.0) normal = -normal;
-  Lighting lighting;
-  lighting.ambient = static_cast<float>(0.60 + 0.10 * normal.z());
-  lighting.sun = static_cast<float>(0.46 * std::max(0.0, normal.dot(camera_.sun)));
-  return lighting;
-}
-
-void WorldPainter::addLit(const Corners& corners, const Colour& colour, float grid,
-                          Triangles& into) const {
-  Lighting lighting = lightingOf(corners);
-  lighting.grid = grid;
-  for (const Vector3d& corner : corners) into.push_back(vertexAt(corner, colour, lighting));
-}
-
-void WorldPainter::addShadow(const Corners& corners) {
-  for (const Vector3d& corner : corners)
-    picture_.casters.emplace_back((corner - picture_.origin).cast<float>());
-}
-
-void WorldPainter::addScene(const Scene& scene) {
-  for (const Scene::Triangle& triangle : scene.triangles) {
-    const Corners corners = cornersOf(scene, triangle);
-    const bool upright = std::abs(normalOf(corners).z()) < uprightLimit;
-    const bool tinted = upright && !camera_.perspective;
-    const Colour colour = opaque(tinted ? wallColour : scene.meshes[triangle.mesh].colour);
-    addLit(corners, colour, upright ? 0.0F : 1.0F, picture_.surfaces);
-    if (upright) addShadow(corners);
-  }
-  for (const Edge& edge : edgesOf(scene)) {
-    const Vector3f dark = 0.30F * scene.meshes[edge.mesh].colour;
-    addEdge(edge.from, edge.to, opaque(camera_.perspective ? dark : wallColour));
-  }
-}
-
-/// A line of constant width on the picture, a little nearer than the surface that it lies on.
-void WorldPainter::addEdge(const Vector3d& from, const Vector3d& to, const Colour& colour) {
-  Vector4d a = camera_.clip(from);
-  Vector4d b = camera_.clip(to);
-  // Cut off what lies before the near plane.
-  const double insideA = a.z() + a.w();
-  const double insideB = b.z() + b.w();
-  if (insideA <= 0.0 && insideB <= 0.0) return;
-  if (insideA < 0.0) a += (b - a) * (insideA / (insideA - insideB));
-  if (insideB < 0.0) b += (a - b) * (insideB / (insideB - insideA));
-
-  const Vector2d toPixels(0.5 * camera_.width, 0.5 * camera_.height);
-  const Vector2d way = (b.head<2>() / b.w() - a.head<2>() / a.w()).cwiseProduct(toPixels);
-  if (way.norm() < 1e-6) return;
-  const Vector2d across = Vector2d(-way.y(), way.x()).normalized();
-  const double fullWidth = std::max(0.9, camera_.height / (camera_.perspective ? 600.0 : 400.0));
-  // Far lines become fainter instead of crowding.
-  const auto end = [&](const Vector4d& p, double side) {
-    const double pixelsPerMetre = 0.5 * camera_.height * camera_.projection(1, 1) / p.w();
-    const double faint =
-        std::clamp(pixelsPerMetre / 7.0 - 0.2, camera_.perspective ? 0.0 : 0.6, 1.0);
-    Vector4d moved = p;
-    moved.head<2>() += (0.5 * fullWidth * side * across).cwiseQuotient(toPixels) * p.w();
-    moved.z() -= (camera_.perspective ? 4e-4 : 1e-3) * p.w();
-    Vertex vertex;
-    for (std::size_t k = 0; k < 4; ++k) {
-      vertex.clip[k] = static_cast<float>(moved[static_cast<Eigen::Index>(k)]);
-      vertex.colour[k] = colour[static_cast<Eigen::Index>(k)];
-    }
-    vertex.colour[3] = static_cast<float>(faint);
-    return vertex;
-  };
-  const Vertex aLeft = end(a, 1.0);
-  const Vertex aRight = end(a, -1.0);
-  const Vertex bLeft = end(b, 1.0);
-  const Vertex bRight = end(b, -1.0);
-  picture_.outlines.insert(picture_.outlines.end(), {aRight, bRight, bLeft, aRight, bLeft, aLeft});
+          {colour.x(), colour.y(), colour.z(), colour.w()}};
 }
 
 /// A vehicle that would be a few pixels long, as an arrowhead that can be seen.
@@ -270,39 +131,59 @@ void WorldPainter::addFarMarker(const DrawnPose& drawn, const Colour& colour) {
   const double size = arrowheadPixels / camera_.pixelsPerMetre(drawn.pose.position);
   const auto at = [&](double along, double across) {
     return vertexAt(
-        drawn.pose.position + drawn.pose.orientation * Vector3d(along, across, 0) * size, colour,
-        {});
+        drawn.pose.position + drawn.pose.orientation * Vector3d(along, across, 0) * size, colour);
   };
-  const Vertex nose = at(0.6, 0.0);
-  const Vertex notch = at(-0.2, 0.0);
-  auto& into = drawn.last ? picture_.vehicles : picture_.ghosts;
-  into.insert(into.end(), {nose, at(-0.4, 0.38), notch, nose, notch, at(-0.4, -0.38)});
+  const FlatVertex nose = at(0.6, 0.0);
+  const FlatVertex notch = at(-0.2, 0.0);
+  picture_.markers.insert(picture_.markers.end(),
+                          {nose, at(-0.4, 0.38), notch, nose, notch, at(-0.4, -0.38)});
 }
 
-void WorldPainter::addVehicles(const Recording& recording, const RunExcerpt& run) {
+/// In the vehicle's frame.
+Range WorldPainter::addBody(const RecordedVehicle& vehicle, std::size_t index,
+                            const SnapshotOptions& options) {
+  Range range{picture_.bodies.size(), 0};
+  const auto own = options.vehicleMeshes.find(vehicle.name);
+  if (own == options.vehicleMeshes.end()) {
+    for (const ShapeTriangle& triangle : vehicleShape(vehicle.parameters, paintOf(index)))
+      addSurface(triangle.corners, triangle.colour, false, picture_.bodies);
+  } else {
+    const Scene& mesh = *own->second;
+    Eigen::AlignedBox3d box;
+    for (const Vector3d& vertex : mesh.vertices) box.extend(vertex);
+    const VehicleParameters& p = vehicle.parameters;
+    const Vector3d shift(0.5 * (p.massCentreToFront - p.massCentreToRear) - box.center().x(),
+                         -box.center().y(), -p.massCentreHeight - box.min().z());
+    for (const Scene::Triangle& triangle : mesh.triangles) {
+      std::array<Vector3d, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k) corners[k] = mesh.corner(triangle, k) + shift;
+      addSurface(corners, mesh.meshes[triangle.mesh].colour, false, picture_.bodies);
+    }
+  }
+  range.count = picture_.bodies.size() - range.first;
+  return range;
+}
+
+void WorldPainter::addVehicles(const Recording& recording, const RunExcerpt& run,
+                               const SnapshotOptions& options) {
+  std::vector<std::optional<Range>> bodies(recording.vehicles().size());
   for (const DrawnPose& drawn : run.poses) {
-    const VehicleParameters& vehicle = recording.vehicles()[drawn.vehicle].parameters;
-    const Vector3f paint = paintOf(drawn.vehicle);
-    const auto tint = [&](const Vector3f& colour) {
-      if (drawn.last) return opaque(colour);
-      Colour pale = opaque(colour + ghostPaleness * (Vector3f::Ones() - colour));
-      pale.w() = ghostOpacity;
-      return pale;
-    };
-    const double length = vehicle.massCentreToFront + vehicle.massCentreToRear;
+    const RecordedVehicle& vehicle = recording.vehicles()[drawn.vehicle];
+    const double length =
+        vehicle.parameters.massCentreToFront + vehicle.parameters.massCentreToRear;
+    const float paleness = drawn.last ? 0.0F : ghostPaleness;
+    const float opacity = drawn.last ? 1.0F : ghostOpacity;
     if (!camera_.pixel(drawn.pose.position)) continue;
     if (length * camera_.pixelsPerMetre(drawn.pose.position) < leastVehiclePixels) {
-      addFarMarker(drawn, tint(paint));
+      const Vector3f paint = paintOf(drawn.vehicle);
+      addFarMarker(drawn, withOpacity(paint + paleness * (Vector3f::Ones() - paint), opacity));
       continue;
     }
-    for (const ShapeTriangle& triangle : vehicleShape(vehicle, paint)) {
-      Corners corners;
-      for (std::size_t k = 0; k < 3; ++k)
-        corners[k] = drawn.pose.position + drawn.pose.orientation * triangle.corners[k];
-      addLit(corners, tint(triangle.colour), 0.0F,
-             drawn.last ? picture_.vehicles : picture_.ghosts);
-      if (drawn.last) addShadow(corners);
-    }
+    auto& body = bodies[drawn.vehicle];
+    if (!body) body = addBody(vehicle, drawn.vehicle, options);
+    Eigen::Affine3d toLocal = Eigen::Affine3d::Identity();
+    toLocal.translate(drawn.pose.position - picture_.localOrigin).rotate(drawn.pose.orientation);
+    picture_.drawnBodies.push_back({*body, toLocal.cast<float>(), paleness, opacity});
   }
 }
 
@@ -310,8 +191,8 @@ void WorldPainter::addPath(const RecordedVehicle& vehicle, const std::vector<Rec
                            double fastest) {
   if (path.size() < 2) return;
   struct Station {
-    Vertex left;
-    Vertex right;
+    FlatVertex left;
+    FlatVertex right;
   };
   std::vector<Station> stations;
   Vector3d ahead = Vector3d::UnitX();
@@ -327,9 +208,9 @@ void WorldPainter::addPath(const RecordedVehicle& vehicle, const std::vector<Rec
     if (camera_.pixel(onGround))
       width = std::max(width, ribbonLeastPixels / camera_.pixelsPerMetre(onGround));
     const Vector3d across = 0.5 * width * Vector3d::UnitZ().cross(ahead);
-    Colour colour = opaque(speedColour(path[k].velocity.norm() / fastest));
+    const Colour colour = withOpacity(speedColour(path[k].velocity.norm() / fastest), 1.0F);
     const auto side = [&](const Vector3d& point) {
-      Vertex vertex = vertexAt(point, colour, {});
+      FlatVertex vertex = vertexAt(point, colour);
       const Vector4d nearer = camera_.clip(point + ribbonNearer * camera_.towards(point));
       if (nearer.w() > 0.0)
         vertex.clip[2] = static_cast<float>(nearer.z() / nearer.w()) * vertex.clip[3];

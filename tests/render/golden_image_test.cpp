@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <numbers>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct Case {
   Scene (*scene)();
   Recording (*run)();
   SnapshotView view;
+  std::optional<double> moment = std::nullopt;
 };
 
 void PrintTo(const Case& which, std::ostream* stream) { *stream << which.name; }
@@ -32,7 +34,9 @@ std::vector<Case> cases() {
   return {{"test_rail_top", testRail, testing::testRailRun, SnapshotView::top},
           {"test_rail_three_quarter", testRail, testing::testRailRun, SnapshotView::three_quarter},
           {"course_top", wholeCourse, testing::courseRun, SnapshotView::top},
-          {"course_three_quarter", wholeCourse, testing::courseRun, SnapshotView::three_quarter}};
+          {"course_three_quarter", wholeCourse, testing::courseRun, SnapshotView::three_quarter},
+          {"test_rail_chase", testRail, testing::testRailRun, SnapshotView::chase, 2.5},
+          {"course_orbit", wholeCourse, testing::courseRun, SnapshotView::orbit}};
 }
 
 SnapshotOptions optionsOf(const Case& which) {
@@ -40,11 +44,13 @@ SnapshotOptions optionsOf(const Case& which) {
   options.width = 800;
   options.height = 450;
   options.view = which.view;
+  options.moment = which.moment;
   return options;
 }
 
-Image draw(const Case& which, const Recording& run) {
-  return renderSnapshot(which.scene(), run, optionsOf(which));
+Image draw(const Case& which, const Recording& run,
+           OffscreenBackend backend = OffscreenBackend::automatic) {
+  return renderSnapshot(which.scene(), run, optionsOf(which), backend);
 }
 
 std::filesystem::path goldenOf(const Case& which) {
@@ -55,7 +61,11 @@ class GoldenImage : public ::testing::TestWithParam<Case> {};
 
 TEST_P(GoldenImage, isMatched) {
   const Case& which = GetParam();
-  EXPECT_THAT(draw(which, which.run()), MatchesGolden(goldenOf(which), {.output = OUTPUT_FOLDER}));
+  for (const OffscreenBackend backend : builtBackends()) {
+    const std::string folder = backend == OffscreenBackend::osmesa ? "/osmesa" : "/egl";
+    EXPECT_THAT(draw(which, which.run(), backend),
+                MatchesGolden(goldenOf(which), {.output = OUTPUT_FOLDER + folder}));
+  }
 }
 
 TEST_P(GoldenImage, isSmallEnoughToKeep) {

@@ -1,17 +1,21 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "bumper/render/image.h"
+#include "bumper/render/offscreen_backend.h"
 #include "bumper/render/recording.h"
 #include "bumper/scenes/scene.h"
 
 namespace bumper {
 
-/// Where the camera stands. Both views frame the run, not the scene.
+/// Where the camera stands. The first two find their frame by themselves: the run, not the scene.
 enum class SnapshotView {
   /// Straight from above, to scale. The frame is the rectangle along the world's axes around all
   /// drawn mass centres and contact points, grown on every side by 1.5 times the longest vehicle,
@@ -22,7 +26,40 @@ enum class SnapshotView {
   top,
   /// From behind, beside and above, on the open side of the wall: frames the hardest impact and
   /// what happened within 15 m of it; without impacts the last 30 m of the run.
-  three_quarter
+  three_quarter,
+  chase,  ///< from behind and above a vehicle, as ChaseCamera says
+  fixed,  ///< from one point to another, as FixedCamera says
+  orbit   ///< on a circle around a point, as OrbitCamera says
+};
+
+/// Follows a vehicle at the last instant that the picture shows, as if pulled on a rope: behind the
+/// way that the vehicle came, so that it turns gently where the vehicle spins. Where a wall stands
+/// between the two, it moves up to the vehicle. Shows 52° from the top to the bottom.
+struct ChaseCamera {
+  std::size_t vehicle = 0;  ///< index in the recording
+  double distance = 10.0;   ///< m behind the mass centre, 2 to 1000
+  double height = 3.8;      ///< m above the mass centre, 0 to 1000
+};
+
+/// World frame, m. `up` is the world's z, or y for a camera that looks straight down or up.
+struct FixedCamera {
+  Eigen::Vector3d eye{-20.0, -20.0, 15.0};
+  Eigen::Vector3d target{0.0, 0.0, 0.0};  ///< in the middle of the picture; not at the eye
+  double fieldOfView = 40.0;              ///< degrees from the top to the bottom, 1 to 120
+};
+
+/// On a circle around a point, looking at it. Shows 32° from the top to the bottom.
+struct OrbitCamera {
+  enum class Around {
+    hardest_impact,  ///< of all that the picture frames; without impacts the vehicle
+    vehicle          ///< its mass centre at the last instant that the picture shows
+  };
+  Around around = Around::hardest_impact;
+  std::optional<Eigen::Vector3d> centre;  ///< m, world: this point instead
+  std::size_t vehicle = 0;                ///< index in the recording
+  double angle = -135.0;    ///< degrees from the world's x axis to the camera, to the left
+  double elevation = 25.0;  ///< degrees above the horizontal, 1 to 89
+  double distance = 24.0;   ///< m from the centre, 1 to 10000
 };
 
 /// What a picture shows. The defaults make one that needs no editing.
@@ -35,12 +72,28 @@ struct SnapshotOptions {
   /// is room the start, the other impacts, and instants at even distances between them; in a
   /// three-quarter view the start and the end of what it frames.
   std::vector<double> instants;
-  std::string title;  ///< empty: the scene's name. ASCII; other letters appear as '?'
+  /// s: a frame of a replay. Vehicles stand where they are then, solid; impacts and the path are
+  /// shown up to then, and ghosts at those of `instants` that lie before it, none if there are
+  /// none. The frame of the top and the three-quarter view, the legend and the length of arrows are
+  /// those of the same picture without a moment: they do not change from frame to frame. Must lie
+  /// within what is drawn without it.
+  std::optional<double> moment;
+  ChaseCamera chase;
+  FixedCamera fixed;
+  OrbitCamera orbit;
+  /// By vehicle name: what to draw instead of the car-like body, for instance from loadScene(). Its
+  /// x axis points forward and z up. It keeps its size and is placed with the middle of its
+  /// bounding box in the middle of the vehicle's outline, and with its lowest point on the ground,
+  /// massCentreHeight below the mass centre.
+  std::map<std::string, std::shared_ptr<const Scene>> vehicleMeshes;
+  std::string title;  ///< empty: the scene's name
   bool showVehicles = true;
-  bool showPath = true;      ///< a ribbon coloured by speed, with its legend
-  bool showImpacts = true;   ///< marks; the strong with number, the wall's normal and Δv
-  bool showScaleBar = true;  ///< top view only
-  bool showTitle = true;     ///< with the span of time, the hardest impact and the marks' legend
+  bool showPath = true;     ///< a ribbon coloured by speed, with its legend
+  bool showImpacts = true;  ///< marks; the strong with number, the wall's normal and Δv
+  bool showTimes = true;    ///< beside vehicles where there is room; not with a moment
+  /// With the world's axes; in other views than the top, the axes and the spacing of the grid.
+  bool showScaleBar = true;
+  bool showTitle = true;  ///< with the span of time, the hardest impact and the marks' legend
 };
 
 /// Draws a scene and what happened in it. Impacts are numbered from 1 in the recording's order. The
@@ -53,10 +106,14 @@ struct SnapshotOptions {
 ///
 /// The same input gives the same picture on one machine; other processors and drivers differ in
 /// single pixels. May be called from several threads at once; the calling thread is left without a
-/// current OSMesa context. Throws Error on an invalid scene, a size or an instant outside its range
-/// (no vehicle was recorded at it), or if the driver fails.
+/// current OpenGL context. Throws Error on an invalid scene or vehicle mesh, a size, a camera or an
+/// instant outside its range (no vehicle was recorded at it), a vehicle that the recording does not
+/// have, or if the driver fails.
+///
+/// For many pictures of one scene use SnapshotRenderer: this makes one for every picture.
 Image renderSnapshot(const Scene& scene, const Recording& recording,
-                     const SnapshotOptions& options = {});
+                     const SnapshotOptions& options = {},
+                     OffscreenBackend backend = OffscreenBackend::automatic);
 
 /// Where a point of the world lies in the picture that renderSnapshot() makes of the same input:
 /// pixels from the left and from the top edge; the centre of the first pixel is (0.5, 0.5). May lie

@@ -1,0 +1,38 @@
+#include "snapshot_input.h"
+
+#include <algorithm>
+#include <string>
+
+#include "bumper/response/error.h"
+
+namespace bumper::drawing {
+
+namespace {
+
+void requireSize(int value, int low, const char* name) {
+  constexpr int most = 8192;
+  if (value >= low && value <= most) return;
+  throw Error(std::string("SnapshotOptions::") + name + " is " + std::to_string(value) +
+              " pixels: it must lie in " + std::to_string(low) + " to " + std::to_string(most));
+}
+
+}  // namespace
+
+void checkOptions(const Recording& recording, const SnapshotOptions& options) {
+  requireSize(options.width, 160, "width");
+  requireSize(options.height, 120, "height");
+  for (const auto& [name, mesh] : options.vehicleMeshes) {
+    const std::string what = "SnapshotOptions::vehicleMeshes: '" + name + "'";
+    if (std::ranges::find(recording.vehicles(), name, &RecordedVehicle::name) ==
+        recording.vehicles().end())
+      throw Error(what + " is no vehicle of the recording");
+    if (mesh == nullptr) throw Error(what + " has no mesh");
+    try {
+      validate(*mesh);
+    } catch (const Error& error) {
+      throw Error(what + ": " + error.what());
+    }
+  }
+}
+
+}  // namespace bumper::drawing

@@ -1,0 +1,227 @@
+// The tools as a user runs them: exit codes, messages, what is left behind.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+#include "bumper/render/image.h"
+#include "bumper/render/recording_reader.h"
+#include "bumper/render/recording_writer.h"
+#include "bumper/scenes/paper_scenes.h"
+#include "bumper/scenes/scene_files.h"
+#include "synthetic_run.h"
+#include "temporary_folder.h"
+
+namespace bumper::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+constexpr int done = 0;
+constexpr int failed = 1;
+constexpr int wrongCommandLine = 2;
+
+struct Outcome {
+  int code = -1;
+  std::string words;  ///< standard output and standard error
+};
+
+class Tools : public ::testing::Test {
+ protected:
+  Tools() {
+    RunDescription run{.scene = referenceTo(testRail())};
+    run.scene.builtIn = "test_rail";
+    writeRecording(testRailRun(), recording_, run);
+  }
+
+  /// `setting`: NAME=value for the program.
+  [[nodiscard]] Outcome run(const std::string& command, const std::string& setting = "") const {
+    const std::string line = "cd '" + folder_.path().string() +
+                             "' && MESA_SHADER_CACHE_DISABLE=true " + setting +
+                             " " TOOLS_FOLDER "/" + command + " 2>&1";
+    std::FILE* pipe = popen(line.c_str(), "r");
+    Outcome outcome;
+    std::array<char, 4096> part{};
+    while (const std::size_t got = std::fread(part.data(), 1, part.size(), pipe))
+      outcome.words.append(part.data(), got);
+    const int status = pclose(pipe);
+    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return outcome;
+  }
+
+  void expectError(const std::string& command, const std::string& words, int code = failed) const {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.code, code) << command << '\n' << outcome.words;
+    EXPECT_THAT(outcome.words, HasSubstr(words)) << command;
+  }
+
+  [[nodiscard]] bool exists(const char* name) const {
+    return std::filesystem::exists(folder_.path() / name);
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path recording_ = folder_.path() / "run.jsonl";
+};
+
+TEST_F(Tools, HelpIsAManualAndNoError) {
+  for (const char* tool : {"bumper-replay", "bumper-plot", "bumper-drive"}) {
+    const Outcome help = run(std::string(tool) + " --help");
+    EXPECT_EQ(help.code, done) << tool;
+    EXPECT_THAT(help.words, HasSubstr("Exit codes")) << tool;
+  }
+}
+
+TEST_F(Tools, WrongCommandLinesEndWithTwo) {
+  expectError("bumper-replay", "subcommand", wrongCommandLine);
+  expectError("bumper-replay dance run.jsonl", "subcommand", wrongCommandLine);
+  expectError("bumper-replay video run.jsonl", "result", wrongCommandLine);
+  expectError("bumper-replay picture run.jsonl p.png --view sideways", "sideways",
+              wrongCommandLine);
+  expectError("bumper-replay frames run.jsonl f --fps fast", "fast", wrongCommandLine);
+  expectError("bumper-plot run.jsonl", "folder", wrongCommandLine);
+  expectError("bumper-plot run.jsonl p --only weather", "weather", wrongCommandLine);
+  expectError("bumper-drive", "scene", wrongCommandLine);
+}
+
+TEST_F(Tools, BadRecordingsAreNamed) {
+  std::ofstream(folder_.path() / "foreign.jsonl") << "{\"type\": \"FeatureCollection\"}\n";
+  std::ofstream(folder_.path() / "picture.jsonl") << "\x89PNG\r\n\x1a\n\0\0\0";
+  std::ofstream(folder_.path() / "empty.jsonl");
+  std::string text;
+  {
+    std::ifstream stream(recording_);
+    text.assign(std::istreambuf_iterator<char>(stream), {});
+  }
+  const std::size_t middle = text.find('\n', text.size() / 2) + 1;
+  std::ofstream(folder_.path() / "damaged.jsonl")
+      << text.substr(0, middle) << "#?!" << text.substr(middle);
+  for (const char* name : {"missing", "foreign", "picture", "empty", "damaged"}) {
+    const std::string file = std::string(name) + ".jsonl";
+    expectError("bumper-replay info " + file, file);
+    expectError("bumper-replay glb " + file + " out.glb", file);
+    expectError("bumper-plot " + file + " plots --only speed", file);
+  }
+  EXPECT_FALSE(exists("out.glb"));
+}
+
+TEST_F(Tools, OfACutRecordingThereIsWhatThereIs) {
+  std::filesystem::resize_file(recording_, std::filesystem::file_size(recording_) / 2);
+  const Outcome info = run("bumper-replay info run.jsonl");
+  EXPECT_EQ(info.code, done);
+  EXPECT_THAT(info.words, HasSubstr("cut off"));
+  EXPECT_THAT(info.words, HasSubstr("vehicle saloon"));
+  EXPECT_EQ(run("bumper-replay glb run.jsonl cut.glb").code, done);
+  EXPECT_TRUE(exists("cut.glb"));
+}
+
+TEST_F(Tools, MakeWhatTheySay) {
+  EXPECT_EQ(run("bumper-replay glb run.jsonl run.glb").words, "");
+  EXPECT_TRUE(exists("run.glb"));
+  EXPECT_EQ(run("bumper-replay picture run.jsonl p.png --size 320x200 --view three_quarter").words,
+            "");
+  EXPECT_EQ(readPng(folder_.path() / "p.png").width(), 320);
+  EXPECT_EQ(run("bumper-replay sheet run.jsonl s.png --impacts 1 --instants 0,0.2").code, done);
+  EXPECT_GT(readPng(folder_.path() / "s.png").height(), 300);
+  EXPECT_EQ(run("bumper-replay closeups run.jsonl c --impacts 1").code, done);
+  EXPECT_TRUE(exists("c/impact_3.png"));
+  EXPECT_EQ(run("bumper-replay csv run.jsonl tables").code, done);
+  EXPECT_TRUE(exists("tables/events.csv"));
+  const Outcome frames =
+      run("bumper-replay frames run.jsonl f --from 1 --to 1.3 --fps 10 --slow-motion 1 "
+          "--size 200x150 --vehicle saloon");
+  EXPECT_EQ(frames.code, done);
+  EXPECT_THAT(frames.words, HasSubstr("4 of 4"));
+  EXPECT_EQ(readPng(folder_.path() / "f" / "frame_00004.png").height(), 150);
+}
+
+TEST_F(Tools, ValuesThatMakeNoSenseAreNamed) {
+  expectError("bumper-replay frames run.jsonl f --fps 0", "framesPerSecond");
+  expectError("bumper-replay frames run.jsonl f --from 7", "nothing to replay");
+  expectError("bumper-replay frames run.jsonl f --size 10x10", "width");
+  expectError("bumper-replay frames run.jsonl f --size big", "--size");
+  expectError("bumper-replay frames run.jsonl f --vehicle lorry", "'saloon'");
+  expectError("bumper-replay glb run.jsonl none/run.glb", "none/run.glb");
+  expectError("bumper-replay video run.jsonl film.avi", ".webm");
+}
+
+TEST_F(Tools, AMissingFfmpegIsAClearMessage) {
+  const Outcome outcome = run("bumper-replay video run.jsonl film.mp4", "BUMPER_FFMPEG=/no/ffmpeg");
+  EXPECT_EQ(outcome.code, failed);
+  EXPECT_THAT(outcome.words, HasSubstr("install ffmpeg or set BUMPER_FFMPEG"));
+  EXPECT_FALSE(exists("film.mp4"));
+  EXPECT_FALSE(exists("film.mp4.part"));
+}
+
+TEST_F(Tools, TheSceneIsFoundBesideTheRecording) {
+  const auto inFolder = folder_.path() / "scenes";
+  std::filesystem::create_directory(inFolder);
+  saveScene(testRail(), inFolder / "rail.obj");
+  const Scene rail = loadScene(inFolder / "rail.obj", {.up = UpAxis::z});
+  RunDescription described{.scene = referenceTo(rail)};
+  described.scene.file = "scenes/rail.obj";
+  described.scene.up = "z";
+  writeRecording(testRailRun(), recording_, described);
+
+  EXPECT_EQ(run("bumper-replay glb run.jsonl run.glb").words, "");
+  EXPECT_TRUE(exists("run.glb"));
+
+  // A moved wall is another scene: a warning, and the result none the less.
+  Scene changed = rail;
+  changed.vertices[0].x() += 0.5;
+  saveScene(changed, inFolder / "rail.obj");
+  const Outcome warned = run("bumper-replay glb run.jsonl changed.glb");
+  EXPECT_EQ(warned.code, done);
+  EXPECT_THAT(warned.words, HasSubstr("warning: the scene is not the one"));
+  EXPECT_TRUE(exists("changed.glb"));
+
+  std::filesystem::rename(inFolder, folder_.path() / "elsewhere");
+  expectError("bumper-replay glb run.jsonl lost.glb", "--scene");
+  EXPECT_FALSE(exists("lost.glb"));
+  saveScene(testRail(), folder_.path() / "elsewhere" / "rail.obj");
+  EXPECT_EQ(run("bumper-replay glb run.jsonl found.glb --scene elsewhere/rail.obj").words, "");
+}
+
+TEST_F(Tools, PlotsAreDrawn) {
+  if (std::system("gnuplot --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "gnuplot is missing";
+  const Outcome outcome = run("bumper-plot run.jsonl plots --sae");
+  EXPECT_EQ(outcome.code, done) << outcome.words;
+  for (const char* name : {"yaw_rate", "speed", "force", "impulse", "path"}) {
+    const auto png = folder_.path() / "plots" / (std::string(name) + ".png");
+    EXPECT_GT(readPng(png).width(), 800) << name;
+  }
+}
+
+TEST_F(Tools, WithoutGnuplotThePlotterSaysSo) {
+  const Outcome outcome = run("bumper-plot run.jsonl plots", "PATH=/nowhere");
+  EXPECT_EQ(outcome.code, failed);
+  EXPECT_THAT(outcome.words, HasSubstr("gnuplot"));
+}
+
+TEST_F(Tools, ADriveIsRecordedWithItsScene) {
+  Scene ground = straightWall({30.0, -20.0}, {30.0, 20.0}, 1.0);
+  const auto first = static_cast<std::uint32_t>(ground.vertices.size());
+  for (const auto& [x, y] : {std::pair(-10.0, -30.0), {60.0, -30.0}, {60.0, 30.0}, {-10.0, 30.0}})
+    ground.vertices.emplace_back(x, y, 0.0);
+  ground.triangles.push_back({{first, first + 1, first + 2}, 0});
+  ground.triangles.push_back({{first, first + 2, first + 3}, 0});
+  saveScene(ground, folder_.path() / "place.obj");
+  const Outcome drive =
+      run("bumper-drive place.obj --up z --start 0,0 --speed 20 --duration 2.5 --out result");
+  ASSERT_EQ(drive.code, done) << drive.words;
+  RunDescription described;
+  const Recording recording = readRecording(folder_.path() / "result" / "run.jsonl", &described);
+  EXPECT_GE(recording.impacts().size(), 1U);
+  EXPECT_EQ(described.scene.file, "../place.obj");
+  // Found again, and the same.
+  EXPECT_EQ(run("bumper-replay glb result/run.jsonl result/run.glb").words, "");
+}
+
+}  // namespace
+}  // namespace bumper::testing
