@@ -47,9 +47,9 @@ void NearbyWalls::list(WallQuery& query, const std::vector<std::unique_ptr<Barri
     if (barrier == nullptr || barrier->clearanceAtLeast(centre_, radius) > radius) continue;
     if (barrier->mesh() == nullptr) {
       walls_.push_back({.of = {.barrier = barrier.get(), .wall = 0},
+                        .wall = {.corners = {}, .normal = Eigen::Vector3d::Zero()},
                         .centre = centre_,
                         .radius = std::numeric_limits<double>::infinity(),
-                        .normal = Eigen::Vector3d::Zero(),
                         .offset = 0.0});
       continue;
     }
@@ -59,9 +59,9 @@ void NearbyWalls::list(WallQuery& query, const std::vector<std::unique_ptr<Barri
       const Eigen::Vector3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
       const Eigen::Vector3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
       walls_.push_back({.of = {.barrier = barrier.get(), .wall = number},
+                        .wall = wall,
                         .centre = 0.5 * (low + high),
                         .radius = aroundCorner * 0.5 * (high - low).norm(),
-                        .normal = wall.normal,
                         .offset = wall.normal.dot(corners[0])});
     }
   }
@@ -72,10 +72,10 @@ void NearbyWalls::list(WallQuery& query, const std::vector<std::unique_ptr<Barri
 bool NearbyWalls::isBeyondPlane(const WallQuery& query, const VehicleState& state, const Near& near,
                                 double reach) {
   const Outline& outline = query.outline();
-  const Eigen::Vector3d normal = state.axes.transpose() * near.normal;
+  const Eigen::Vector3d normal = state.axes.transpose() * near.wall.normal;
   const Eigen::Vector3d middle = query.middle();
   const double across =
-      std::abs(near.offset - near.normal.dot(state.massCentre) - normal.dot(middle));
+      std::abs(near.offset - near.wall.normal.dot(state.massCentre) - normal.dot(middle));
   // Twice the band's height: what leans stands out from its line.
   const double half = std::abs(normal.x()) * (0.5 * (outline.front + outline.rear) + reach) +
                       std::abs(normal.y()) * (outline.halfWidth + reach) +
@@ -98,7 +98,7 @@ void NearbyWalls::collect(WallQuery& query, const std::vector<std::unique_ptr<Ba
     if (x > outline.front + most || -x > outline.rear + most) continue;
     if (std::abs(left.dot(away)) > outline.halfWidth + most) continue;
     if (isBeyondPlane(query, state, near, reach)) continue;
-    if (auto segment = query.cut(*near.of.barrier, near.of.wall, state, reach)) {
+    if (auto segment = query.cut(*near.of.barrier, near.of.wall, near.wall, state, reach)) {
       segment->id = static_cast<int>(i);
       segments.push_back(*segment);
     }

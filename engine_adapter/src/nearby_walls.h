@@ -37,10 +37,10 @@ class NearbyWalls {
  private:
   struct Near {
     BarrierWall of;
+    Wall wall;               // with a normal of zero for what is no triangle
     Eigen::Vector3d centre;  // of a ball around the wall
     double radius;
-    Eigen::Vector3d normal;  // of its plane; zero if it has none
-    double offset;           // of the plane along the normal
+    double offset;  // of its plane along the normal
   };
 
   [[nodiscard]] bool covers(const WallQuery& query, const VehicleState& state, double reach) const;

@@ -111,19 +111,18 @@ const std::vector<int>& WallQuery::list(const BarrierMesh& mesh, const VehicleSt
   return near_;
 }
 
-std::optional<WallSegment> WallQuery::cut(const Barrier& barrier, int wall,
+std::optional<WallSegment> WallQuery::cut(const Barrier& barrier, int number, const Wall& wall,
                                           const VehicleState& state, double reach) const {
   std::optional<WallSegment> segment;
   if (const PrimitiveWall* primitive = barrier.primitive()) {
     segment = primitive->cut(state, low_, high_, radius_ + reach);
   } else {
-    const BarrierMesh& mesh = *barrier.mesh();
-    segment = cutWall(mesh.walls()[static_cast<std::size_t>(wall)], state, low_, high_);
-    if (segment) segment->solid = mesh.isSolid();
+    segment = cutWall(wall, state, low_, high_);
+    if (segment) segment->solid = barrier.mesh()->isSolid();
   }
   if (!segment || !isNear(*segment, reach)) return std::nullopt;
   segment->group = barrier.id().value;
-  segment->settings = &barrier.settings(barrier.settingsNumberOf(wall));
+  segment->settings = &barrier.settings(barrier.settingsNumberOf(number));
   return segment;
 }
 

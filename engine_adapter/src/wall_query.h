@@ -37,10 +37,10 @@ class WallQuery {
   const std::vector<int>& list(const BarrierMesh& mesh, const VehicleState& state,
                                const Margins& margins);
 
-  /// The part of a barrier's wall that is in the outline enlarged by `reach` on every side, m, cut
-  /// to the band and laid into the yaw plane: the whole piece if any of it is. Nothing if none is.
-  /// The segment has no id yet; its group is the barrier's id.
-  [[nodiscard]] std::optional<WallSegment> cut(const Barrier& barrier, int wall,
+  /// The part of a barrier's wall with that number that is in the outline enlarged by `reach` on
+  /// every side, m, cut to the band and laid into the yaw plane: the whole piece if any of it is.
+  /// Nothing if none is. The segment has no id yet; its group is the barrier's id.
+  [[nodiscard]] std::optional<WallSegment> cut(const Barrier& barrier, int number, const Wall& wall,
                                                const VehicleState& state, double reach) const;
 
   [[nodiscard]] const Outline& outline() const { return outline_; }

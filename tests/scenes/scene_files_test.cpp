@@ -148,7 +148,9 @@ TEST_F(SceneFiles, LoadingTellsHowItGoesOn) {
   Scene scene = course();
   // Many meshes, so that there is something to tell of them.
   scene.meshes.clear();
-  for (int i = 0; i < 100; ++i) scene.meshes.push_back({.name = "part " + std::to_string(i)});
+  for (int i = 0; i < 100; ++i) {
+    scene.meshes.push_back({.name = "part " + std::to_string(i), .material = "", .colour = {}});
+  }
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     scene.triangles[i].mesh = static_cast<std::uint32_t>(i % 100);
   }

@@ -1,0 +1,111 @@
+// step() allocates nothing after warm-up: a program of its own, because it replaces malloc.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include "box_car.h"
+#include "bumper/engine_adapter/responder.h"
+#include "bumper/scenes/paper_scenes.h"
+#include "ode_world.h"
+
+namespace {
+
+// Whoever allocates while this is set is caught.
+thread_local bool guarded = false;
+thread_local int caught = 0;
+
+}  // namespace
+
+#ifndef __SANITIZE_ADDRESS__
+
+extern "C" {
+// The C library's own, under the names that it keeps for this purpose.
+void* __libc_malloc(std::size_t size);                     // NOLINT(bugprone-reserved-identifier)
+void* __libc_calloc(std::size_t count, std::size_t size);  // NOLINT(bugprone-reserved-identifier)
+void* __libc_realloc(void* memory, std::size_t size);      // NOLINT(bugprone-reserved-identifier)
+
+void* malloc(std::size_t size) {
+  if (guarded) ++caught;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  if (guarded) ++caught;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* memory, std::size_t size) {
+  if (guarded) ++caught;
+  return __libc_realloc(memory, size);
+}
+}
+
+#endif
+
+namespace bumper::tests {
+namespace {
+
+// Drives cars into the L-shaped wall, along it and away, again and again, and returns how often
+// memory was allocated within step() after the first rounds.
+int allocationsOf(const ResponderOptions& options) {
+  OdeWorld ode;
+  Responder responder(ode.world, options);
+  responder.addBarrier(testRail());
+  constexpr int count = 4;
+  std::vector<std::unique_ptr<BoxCar>> cars;
+  for (int i = 0; i < count; ++i) {
+    cars.push_back(std::make_unique<BoxCar>(ode.world));
+    responder.addVehicle(cars.back()->body, cars.back()->parameters);
+  }
+  int allocations = 0;
+  std::size_t events = 0;
+  for (int round = 0; round < 20; ++round) {
+    for (int i = 0; i < count; ++i) {
+      BoxCar& car = *cars[static_cast<std::size_t>(i)];
+      const double yaw = 0.1 + 0.05 * i + 0.02 * round;
+      car.place({30.0 + 3.0 * i, 3.0 * i - 4.0, car.parameters.massCentreHeight},
+                Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix());
+      car.move({25.0 * std::cos(yaw), 25.0 * std::sin(yaw), 0.0}, {0.0, 0.0, 0.2 * i});
+    }
+    for (int step = 0; step < 300; ++step) {
+      for (const auto& car : cars) dBodyAddForce(car->body, 2000.0, 500.0, 0.0);
+      caught = 0;
+      guarded = true;
+      events += responder.step(0.005).size();
+      guarded = false;
+      if (round >= 5) allocations += caught;
+      dWorldQuickStep(ode.world, 0.005);
+    }
+  }
+  EXPECT_GT(events, 40U);
+  return allocations;
+}
+
+class Allocation : public testing::Test {
+ protected:
+  void SetUp() override {
+#ifdef __SANITIZE_ADDRESS__
+    GTEST_SKIP() << "the sanitizer has its own malloc";
+#endif
+  }
+};
+
+TEST_F(Allocation, IsNoticedByTheGuard) {
+  caught = 0;
+  guarded = true;
+  const auto memory = std::make_unique<std::vector<int>>(1000);
+  guarded = false;
+  EXPECT_GE(caught, 2);
+  EXPECT_EQ(memory->size(), 1000U);
+}
+
+TEST_F(Allocation, NoneInStepAfterWarmUp) {
+  EXPECT_EQ(allocationsOf({}), 0);
+  EXPECT_EQ(allocationsOf({.skipping = false}), 0);
+  EXPECT_EQ(allocationsOf({.delivery = Delivery::state_reset}), 0);
+}
+
+}  // namespace
+}  // namespace bumper::tests
