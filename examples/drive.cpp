@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <numbers>
@@ -254,9 +255,7 @@ void drive(const Order& order) {
   dCloseODE();
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int runDrive(int argc, char** argv) {
   Order order;
   CLI::App app("Drives a car through a mesh file and lets it hit what stands in its way.",
                "bumper-drive");
@@ -291,4 +290,15 @@ int main(int argc, char** argv) {
   app.add_option("--out", order.out, "folder for tables and pictures")->capture_default_str();
   app.footer("\n" + exitCodes());
   return runTool(app, argc, argv, [&] { drive(order); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return runDrive(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "bumper-drive: %s\n", error.what());
+    return 1;
+  }
 }

@@ -1,6 +1,7 @@
 // Plots a recording with gnuplot: bumper-plot --help.
 
 #include <cstdio>
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -60,9 +61,7 @@ void plot(Order& order) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int runPlot(int argc, char** argv) {
   Order order;
   CLI::App app("Plots yaw rate, speed, force, impulse and path of a recorded run.", "bumper-plot");
   addRecordedRunOptions(app, order.run);
@@ -75,4 +74,15 @@ int main(int argc, char** argv) {
                "signs as in the paper (SAE J670: y to the right, yaw rate positive turning right)");
   app.footer(manual + exitCodes());
   return runTool(app, argc, argv, [&] { plot(order); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return runPlot(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "bumper-plot: %s\n", error.what());
+    return 1;
+  }
 }

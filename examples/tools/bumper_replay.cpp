@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <map>
 #include <sstream>
 #include <string>
@@ -192,9 +193,7 @@ void makeCsv(Order& order) {
            order.vehicle.empty() ? 0 : vehicleIndex(recording, order.vehicle));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int replay(int argc, char** argv) {
   Order order;
   CLI::App app("Makes pictures, films, 3D files and tables of a recorded run.", "bumper-replay");
   app.require_subcommand(1);
@@ -243,4 +242,15 @@ int main(int argc, char** argv) {
   // A film's frames are small and follow the vehicle; a picture is neither.
   picture->preparse_callback([&](std::size_t) { order.replay.picture = SnapshotOptions(); });
   return runTool(app, argc, argv, [&] { job(); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return replay(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "bumper-replay: %s\n", error.what());
+    return 1;
+  }
 }

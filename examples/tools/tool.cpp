@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <exception>
 #include <system_error>
 #include <utility>
 
@@ -17,9 +16,6 @@ int runTool(CLI::App& app, int argc, char** argv, const std::function<void()>& j
     job();
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), error.what());
-    return 1;
   }
   return 0;
 }

@@ -8,8 +8,8 @@
 
 namespace bumper::examples {
 
-/// What every tool does around its work: reads the command line, runs the job, prints an error to
-/// standard error. Returns the exit code: 0, 1 if the job failed, 2 if the command line is wrong.
+/// Reads the command line and runs the job. Returns the exit code: 0, or 2 if the command line is
+/// wrong; what the job throws is main's to report, with exit code 1.
 int runTool(CLI::App& app, int argc, char** argv, const std::function<void()>& job);
 
 /// The end of a tool's --help.
