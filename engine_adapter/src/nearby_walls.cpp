@@ -46,11 +46,12 @@ void NearbyWalls::list(WallQuery& query, const std::vector<std::unique_ptr<Barri
   for (const std::unique_ptr<Barrier>& barrier : barriers) {
     if (barrier == nullptr || barrier->clearanceAtLeast(centre_, radius) > radius) continue;
     if (barrier->mesh() == nullptr) {
-      walls_.push_back({.of = {.barrier = barrier.get(), .wall = 0},
-                        .wall = {.corners = {}, .normal = Eigen::Vector3d::Zero()},
-                        .centre = centre_,
-                        .radius = std::numeric_limits<double>::infinity(),
-                        .offset = 0.0});
+      walls_.push_back(
+          {.of = {.barrier = barrier.get(), .wall = 0},
+           .wall = {.corners = {centre_, centre_, centre_}, .normal = Eigen::Vector3d::Zero()},
+           .centre = centre_,
+           .radius = std::numeric_limits<double>::infinity(),
+           .offset = 0.0});
       continue;
     }
     for (const int number : query.list(*barrier->mesh(), state, margins_)) {
