@@ -112,8 +112,12 @@ Situation situationOf(const Scene& scene, const Recording& recording, std::size_
 /// A part of the picture that shows a part of the ground plan, and nothing beyond its frame.
 class Plan {
  public:
-  Plan(Pen& pen, const Box& frame, const Vector2d& centre, double pixelsPerMetre, double unit)
-      : pen_(pen), frame_(frame), centre_(centre), scale_(pixelsPerMetre), unit_(unit) {}
+  Plan(Pen& pen, Box frame, Vector2d centre, double pixelsPerMetre, double unit)
+      : pen_(pen),
+        frame_(std::move(frame)),
+        centre_(std::move(centre)),
+        scale_(pixelsPerMetre),
+        unit_(unit) {}
 
   [[nodiscard]] Vector2d at(const Vector2d& point) const {
     return frame_.center() + scale_ * onPicture(point - centre_);
@@ -172,6 +176,7 @@ class Plan {
   void fill(const std::vector<Vector2d>& corners, const Colour& colour) const {
     // Cut by one side of the frame after the other.
     std::vector<Vector2d> shape;
+    shape.reserve(corners.size());
     for (const Vector2d& corner : corners) shape.push_back(at(corner));
     for (const int axis : {0, 1}) {
       for (const double sign : {-1.0, 1.0}) {

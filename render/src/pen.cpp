@@ -74,8 +74,11 @@ void Pen::dashes(const Vector2d& from, const Vector2d& to, double width, double 
                  const Colour& colour) {
   const double far = (to - from).norm();
   const Vector2d along = (to - from) / std::max(far, 1e-9);
-  for (double start = 0.0; start < far; start += 2.0 * length)
+  const int count = static_cast<int>(std::ceil(far / (2.0 * length)));
+  for (int k = 0; k < count; ++k) {
+    const double start = 2.0 * length * k;
     line(from + start * along, from + std::min(far, start + length) * along, width, colour);
+  }
 }
 
 void Pen::arrow(const Vector2d& from, const Vector2d& to, double width, const Colour& colour,

@@ -37,8 +37,8 @@ SnapshotRenderer::SnapshotRenderer(const Scene& scene, OffscreenBackend backend)
   parts_ = std::make_unique<Parts>(scene, backend);
 }
 
-SnapshotRenderer::SnapshotRenderer(SnapshotRenderer&&) noexcept = default;
-SnapshotRenderer& SnapshotRenderer::operator=(SnapshotRenderer&&) noexcept = default;
+SnapshotRenderer::SnapshotRenderer(SnapshotRenderer&& other) noexcept = default;
+SnapshotRenderer& SnapshotRenderer::operator=(SnapshotRenderer&& other) noexcept = default;
 SnapshotRenderer::~SnapshotRenderer() = default;
 
 OffscreenBackend SnapshotRenderer::backend() const { return parts_->context->backend(); }

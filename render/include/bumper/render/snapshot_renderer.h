@@ -26,8 +26,8 @@ class SnapshotRenderer {
                             OffscreenBackend backend = OffscreenBackend::automatic);
   SnapshotRenderer(const SnapshotRenderer&) = delete;
   SnapshotRenderer& operator=(const SnapshotRenderer&) = delete;
-  SnapshotRenderer(SnapshotRenderer&&) noexcept;
-  SnapshotRenderer& operator=(SnapshotRenderer&&) noexcept;
+  SnapshotRenderer(SnapshotRenderer&& other) noexcept;
+  SnapshotRenderer& operator=(SnapshotRenderer&& other) noexcept;
   ~SnapshotRenderer();
 
   /// The same picture as renderSnapshot() of the scene, and the same errors; it can be used on
