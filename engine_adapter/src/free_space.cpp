@@ -172,9 +172,10 @@ bool FreeSpace::fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
     const double middle = 0.5 * (start + end);
     if (clearanceAt(middle) >= std::hypot(end - middle, radius)) continue;
     // Discs in a row.
-    for (double x = start; x < end; x += spacing) {
-      if (clearanceAt(x + 0.5 * spacing) >= radius) continue;
-      end = x;
+    const int discs = static_cast<int>(std::ceil((end - start) / spacing));
+    for (int k = 0; k < discs; ++k) {
+      if (clearanceAt(start + (k + 0.5) * spacing) >= radius) continue;
+      end = start + k * spacing;
       break;
     }
     if (end < beyond) return false;

@@ -21,6 +21,8 @@ struct BarrierWall {
 /// the vehicle may reach out of it.
 class NearbyWalls {
  public:
+  NearbyWalls() { walls_.reserve(32); }
+
   /// All pieces of walls that a vehicle in that state may come at within its reach, m, in the order
   /// of barriers and walls. A piece's id is its wall's number here.
   void collect(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,

@@ -28,10 +28,11 @@ struct Vehicle {
         minUprightness(std::cos(tiltLimit)),
         freeSpace(bodies, itsParameters, band, minUprightness),
         query(itsParameters, band) {
-    memory.vehicle = id;
-    memory.passages.reserve(4);
-    memory.contacts.reserve(4);
-    memoryBefore = memory;
+    for (VehicleMemory* each : {&memory, &memoryBefore}) {
+      each->vehicle = id;
+      each->passages.reserve(4);
+      each->contacts.reserve(4);
+    }
   }
 
   VehicleParameters parameters;

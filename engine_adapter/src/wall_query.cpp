@@ -81,7 +81,9 @@ WallQuery::WallQuery(const VehicleParameters& parameters, const Band& band)
       high_(band.top - parameters.massCentreHeight),
       radius_(std::hypot(std::max(outline_.front, outline_.rear), outline_.halfWidth,
                          std::max(std::abs(low_), std::abs(high_)))),
-      box_(dCreateBox(nullptr, 1.0, 1.0, 1.0)) {}
+      box_(dCreateBox(nullptr, 1.0, 1.0, 1.0)) {
+  near_.reserve(256);
+}
 
 WallQuery::~WallQuery() { dGeomDestroy(box_); }
 

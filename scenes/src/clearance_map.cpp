@@ -11,13 +11,16 @@ namespace bumper {
 
 namespace {
 
-constexpr double smallestCell = 1.0;  // m
+// Of coordinates far from the origin, m.
+constexpr double rounding = 1e-6;
+
+constexpr double smallestCell = 1.25;  // m
 constexpr double mostCells = 4e6;
 
 // Cells are kept in tiles of so many rows and columns. A tile all of whose cells are this far from
 // every wall, in cells, is kept as one number.
 constexpr std::size_t tileSide = 16;
-constexpr int farTile = 10;
+constexpr int farTile = 7;
 
 // Distances are kept in parts of a cell.
 constexpr int partsOfCell = 8;
@@ -107,11 +110,11 @@ ClearanceMap::ClearanceMap(const std::vector<Wall>& walls) {
   for (const Wall& wall : walls) findDistances(wall, distances, away);
   spread(away, columns_, rows_);
   for (std::size_t i = 0; i < away.size(); ++i) {
-    // Within exactCells of a wall's cell all cells have their distance; from the middle of a cell
-    // to the edge of another it is half a cell less.
-    if (away[i] == 0) continue;
-    const int parts = partsOfCell * (away[i] + exactCells) - partsOfCell / 2;
-    distances[i] = static_cast<std::uint8_t>(std::min(parts, most));
+    // Within exactCells of a wall's cell all cells know their distance from it; other walls are
+    // further away than that. From the middle of a cell to the edge of the next it is half a cell.
+    const int unknown = away[i] == 0 ? exactCells + 1 : away[i] + exactCells;
+    const int parts = partsOfCell * unknown - partsOfCell / 2;
+    distances[i] = static_cast<std::uint8_t>(std::min<int>({parts, distances[i], most}));
   }
   keep(distances);
 }
@@ -174,7 +177,9 @@ double ClearanceMap::atLeast(double x, double y) const {
   if (tiles_.empty()) return std::numeric_limits<double>::infinity();
   const double outsideX = std::max({lowX_ - x, x - highX_, 0.0});
   const double outsideY = std::max({lowY_ - y, y - highY_, 0.0});
-  if (outsideX > 0.0 || outsideY > 0.0) return std::hypot(outsideX, outsideY);
+  if (outsideX > 0.0 || outsideY > 0.0) {
+    return std::max(std::hypot(outsideX, outsideY) - rounding, 0.0);
+  }
   if (!std::isfinite(x) || !std::isfinite(y)) return 0.0;
   const double columns = (x - lowX_) / cell_;
   const double rows = (y - lowY_) / cell_;

@@ -35,6 +35,9 @@ std::vector<Edge> sortedEdges(const std::vector<Corners>& corners) {
   std::vector<Edge> edges;
   edges.reserve(3 * corners.size());
   for (std::uint32_t i = 0; i < corners.size(); ++i) {
+    // Two corners of a sliver may count as one: it is half of no quad.
+    const auto [a, b, c] = corners[i];
+    if (a == b || b == c || c == a) continue;
     for (std::uint32_t k = 0; k < 3; ++k) {
       const auto [low, high] = std::minmax(corners[i].at((k + 1) % 3), corners[i].at((k + 2) % 3));
       edges.push_back({low, high, i, k});

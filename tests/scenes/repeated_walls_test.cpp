@@ -51,6 +51,19 @@ TEST(RepeatedWalls, HalfAQuadIsDroppedToo) {
   EXPECT_EQ(selectWalls(scene).report.droppedRetriangulated, 1U);
 }
 
+TEST(RepeatedWalls, ASliverIsHalfOfNoQuad) {
+  Scene scene;
+  addQuad(scene, square, false);
+  // Along the diagonal, and so thin that two of its corners count as one.
+  addTriangle(scene, square[0], square[2], square[2] + Vector3d(-2e-6, 0, 0));
+  addTriangle(scene, square[0], square[2], square[2] + Vector3d(0, 0, -2e-6));
+  const Walls walls = selectWalls(scene);
+  EXPECT_EQ(walls.report.droppedRetriangulated, 0U);
+  ASSERT_GE(walls.report.walls, 2U);
+  EXPECT_EQ(walls.walls[0].triangle, 0);
+  EXPECT_EQ(walls.walls[1].triangle, 1);
+}
+
 TEST(RepeatedWalls, TwoHalvesOfDifferentCutsAreKept) {
   Scene scene;
   addTriangle(scene, square[0], square[1], square[2]);

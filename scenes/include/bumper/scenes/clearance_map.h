@@ -15,13 +15,14 @@ class ClearanceMap {
   /// Of no walls.
   ClearanceMap() = default;
 
-  /// Cells are 1 m wide, or more where that would be over four million; those that are 10 cells
+  /// Cells are 1.25 m wide, or more where that would be over four million; those that are 7 cells
   /// and more from every wall take next to no memory.
   explicit ClearanceMap(const std::vector<Wall>& walls);
 
   /// A horizontal distance, m, within which of a point of the world there is certainly no wall: the
-  /// true distance less at most 1.6 cells, up to 5 cells; at least 0.7 of it less 2 cells further
-  /// away, up to 31 cells; 0 for a point that is not finite. Infinite without walls.
+  /// true distance less at most 1.6 cells, up to 4 cells; further away 0.7 of it less 2 cells or 6
+  /// cells, whichever is less, and usually more; 0 for a point that is not finite. Infinite without
+  /// walls.
   [[nodiscard]] double atLeast(double x, double y) const;
 
   [[nodiscard]] double cellSize() const { return cell_; }  ///< m
