@@ -112,9 +112,9 @@ Situation situationOf(const Scene& scene, const Recording& recording, std::size_
 /// A part of the picture that shows a part of the ground plan, and nothing beyond its frame.
 class Plan {
  public:
-  Plan(Pen& pen, Box frame, Vector2d centre, double pixelsPerMetre, double unit)
+  Plan(Pen& pen, const Box& frame, Vector2d centre, double pixelsPerMetre, double unit)
       : pen_(pen),
-        frame_(std::move(frame)),
+        frame_(frame),
         centre_(std::move(centre)),
         scale_(pixelsPerMetre),
         unit_(unit) {}
