@@ -113,11 +113,7 @@ Situation situationOf(const Scene& scene, const Recording& recording, std::size_
 class Plan {
  public:
   Plan(Pen& pen, const Box& frame, Vector2d centre, double pixelsPerMetre, double unit)
-      : pen_(pen),
-        frame_(frame),
-        centre_(std::move(centre)),
-        scale_(pixelsPerMetre),
-        unit_(unit) {}
+      : pen_(pen), frame_(frame), centre_(std::move(centre)), scale_(pixelsPerMetre), unit_(unit) {}
 
   [[nodiscard]] Vector2d at(const Vector2d& point) const {
     return frame_.center() + scale_ * onPicture(point - centre_);
