@@ -34,7 +34,7 @@ void check(const SceneReference& scene) {
     throw Error("SceneReference::scale is " + std::to_string(scene.scale) +
                 ": it must be finite and positive");
   }
-  if (scene.up != "" && scene.up != "x" && scene.up != "y" && scene.up != "z")
+  if (!scene.up.empty() && scene.up != "x" && scene.up != "y" && scene.up != "z")
     throw Error("SceneReference::up is \"" + scene.up + R"(": allowed are "x", "y", "z" and "")");
 }
 
