@@ -33,8 +33,11 @@ void NearbyWalls::list(WallQuery& query, const std::vector<std::unique_ptr<Barri
                        const VehicleState& state, double reach) {
   centre_ = state.massCentre;
   axes_ = state.axes;
+  // One that spins turns out of the region before it has passed through it.
+  const double spin = std::abs(state.yawRate) * 1.5 * query.radius();
+  const double time = std::min(timeAhead, allAround / std::max(spin, 1e-9));
   const double way =
-      std::clamp(timeAhead * state.axes.col(0).dot(state.velocity), -mostAhead, mostAhead);
+      std::clamp(time * state.axes.col(0).dot(state.velocity), -mostAhead, mostAhead);
   const double needed = reach + query.lean() + allAround;
   margins_ = {.front = needed + std::max(way, 0.0),
               .rear = needed + std::max(-way, 0.0),
