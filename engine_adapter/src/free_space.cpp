@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
+#include <limits>
 
 #include "bumper/response/collision_step.h"
 #include "ode_vectors.h"
@@ -30,12 +30,25 @@ constexpr int stepsAfterFailure = 8;
 // than that, m/s, may go any way.
 constexpr double timeAhead = 1.0;
 constexpr double leastAhead = 2.0;
+constexpr double leastBehind = 0.25;
 constexpr double mostAhead = 32.0;
 constexpr double slow = 1.0;
 
-// How far the vehicle's forward and up axes may turn, rad.
-constexpr double forwardTurn = 0.08;
+// How far the vehicle's up axis may turn, rad.
 constexpr double upTurn = 0.05;
+
+// The widths of strips that are tried, m, the turns of the forward axis that go with them, rad, and
+// how far apart they are looked at, m: the more room, the longer it lasts.
+struct Width {
+  double aside;
+  double turn;
+  double spacing;
+};
+constexpr std::array<Width, 4> widths = {
+    {{2.0, 0.3, 4.0}, {1.0, 0.15, 3.0}, {0.5, 0.08, 2.0}, {0.15, 0.04, 1.0}}};
+
+// A strip that the vehicle leaves within so many steps is not worth the look.
+constexpr double fewestSteps = 4.0;
 
 // How far it may rise or sink, m.
 constexpr double heightChange = 16.0;
@@ -74,8 +87,8 @@ bool FreeSpace::holds(double h) {
   const dReal* r = rotation_;
   const double forward = r[0] * forward_.x() + r[4] * forward_.y() + r[8] * forward_.z();
   const double up = r[2] * up_.x() + r[6] * up_.y() + r[10] * up_.z();
-  bool inside = r[10] >= minUprightness_ && forward >= cosineOf(forwardTurn) &&
-                up >= cosineOf(upTurn) && squaredNorm(turning_) <= turning2_;
+  bool inside = r[10] >= minUprightness_ && forward >= leastForward_ && up >= cosineOf(upTurn) &&
+                squaredNorm(turning_) <= turning2_;
   double force2 = 0.0;
   double torque2 = 0.0;
   for (const Body& body : bodies_) {
@@ -135,7 +148,7 @@ double FreeSpace::reachOfAllowed(const VehicleState& state, double gravity, doub
 
 // Whether there is no wall in the strip; it is made shorter if that helps.
 bool FreeSpace::fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
-                     const VehicleState& state, double reach, double spacing) {
+                     const VehicleState& state, double reach, double turn, double spacing) {
   const Eigen::Vector2d along(forwardX_, forwardY_);
   const Eigen::Vector2d across = turnedLeft(along);
   // What the outline over the band takes in the horizontal plane.
@@ -153,8 +166,8 @@ bool FreeSpace::fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
     }
   }
   // The left axis turns by no more than both others together.
-  const double turned = forwardTurn * std::max(outline_.front, outline_.rear) +
-                        (forwardTurn + upTurn) * outline_.halfWidth +
+  const double turned = turn * std::max(outline_.front, outline_.rear) +
+                        (turn + upTurn) * outline_.halfWidth +
                         upTurn * std::max(std::abs(low_), std::abs(high_));
   const double slack = reach + turned;
   const double start = -(rear + slack + strip_.behind);
@@ -199,10 +212,19 @@ bool FreeSpace::find(const std::vector<std::unique_ptr<Barrier>>& barriers,
   up_ = state.up();
   allowMotion(state);
   const double ahead = std::clamp(timeAhead * speed, leastAhead, mostAhead);
-  for (const auto& [aside, spacing] : {std::pair(0.6, 2.0), std::pair(0.15, 1.0)}) {
-    strip_ = {.ahead = ahead, .behind = leastAhead / 8.0, .aside = aside};
-    const double reach = reachOfAllowed(state, gravity, penetrationTime, h);
-    if (!fits(barriers, state, reach, spacing)) continue;
+  strip_ = {.ahead = ahead, .behind = leastBehind, .aside = widths.front().aside};
+  const double reach = reachOfAllowed(state, gravity, penetrationTime, h);
+  double around = std::numeric_limits<double>::infinity();
+  for (const std::unique_ptr<Barrier>& barrier : barriers) {
+    if (barrier == nullptr) continue;
+    around = std::min(around, barrier->clearanceAtLeast(state.massCentre, heightChange));
+  }
+  for (const Width& width : widths) {
+    if (around < outline_.halfWidth + reach + width.aside) continue;
+    strip_ = {.ahead = ahead, .behind = leastBehind, .aside = width.aside};
+    if (!fits(barriers, state, reach, width.turn, width.spacing)) continue;
+    if (strip_.ahead < std::min(fewestSteps * h * speed, 0.5 * ahead)) continue;
+    leastForward_ = cosineOf(width.turn);
     step_ = h;
     stepsLeft_ = stepsBetweenLooks;
     for (Body& body : bodies_) {

@@ -56,7 +56,7 @@ class FreeSpace {
   [[nodiscard]] double reachOfAllowed(const VehicleState& state, double gravity,
                                       double penetrationTime, double h) const;
   [[nodiscard]] bool fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
-                          const VehicleState& state, double reach, double spacing);
+                          const VehicleState& state, double reach, double turn, double spacing);
 
   VehicleParameters parameters_;
   Outline outline_;
@@ -72,7 +72,8 @@ class FreeSpace {
   int stepsLeft_ = 0;
   int stepsUntilLook_ = 0;
   Strip strip_;
-  double forwardX_ = 0.0;  // the strip's direction
+  double leastForward_ = 1.0;  // cosine of the turn that is allowed
+  double forwardX_ = 0.0;      // the strip's direction
   double forwardY_ = 0.0;
   Eigen::Vector3d forward_ = Eigen::Vector3d::Zero();  // the vehicle's axes then
   Eigen::Vector3d up_ = Eigen::Vector3d::Zero();
