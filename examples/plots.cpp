@@ -216,8 +216,13 @@ void plotPath(const Scene& scene, const Recording& recording, const PlotOptions&
     script << event.contact.x() << ' ' << side * event.contact.y() << '\n';
   script << "EOD\n" << look << "set output " << quoted(png) << '\n';
   constexpr double margin = 8.0;  // m
-  script << "set xrange [" << frame.min().x() - margin << ':' << frame.max().x() + margin << "]\n"
-         << "set yrange [" << frame.min().y() - margin << ':' << frame.max().y() + margin << ']'
+  // To scale, and yet of a shape that fills the plot and leaves the scales room.
+  constexpr double flattest = 0.4;
+  const Eigen::Vector2d middle = frame.center();
+  Eigen::Vector2d half = 0.5 * frame.sizes() + Eigen::Vector2d(margin, margin);
+  half = half.cwiseMax(flattest * half.maxCoeff());
+  script << "set xrange [" << middle.x() - half.x() << ':' << middle.x() + half.x() << "]\n"
+         << "set yrange [" << middle.y() - half.y() << ':' << middle.y() + half.y() << ']'
          << (options.sae ? " reverse\n" : "\n")  // from above, either way
          << "set ylabel 'y, m ("
          << (options.sae ? "SAE J670: positive to the right" : "ISO 8855: positive to the left")
