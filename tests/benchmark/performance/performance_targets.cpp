@@ -27,8 +27,8 @@ class PerScene {
   PerScene(const Performance& performance, std::vector<std::string> scenes)
       : performance_(performance), scenes_(std::move(scenes)) {}
 
-  Target ratio(const std::string& target, const Figure& figure, const std::string& peer,
-               std::optional<double> limit) const {
+  [[nodiscard]] Target ratio(const std::string& target, const Figure& figure,
+                             const std::string& peer, std::optional<double> limit) const {
     return evaluate(target, limit, [&](const std::string& scene) {
       const QueryRow* own = rowOf(performance_, scene, "bumper");
       const QueryRow* other = rowOf(performance_, scene, peer);
@@ -36,7 +36,7 @@ class PerScene {
     });
   }
 
-  Target value(const std::string& target, const Figure& figure, double limit) const {
+  [[nodiscard]] Target value(const std::string& target, const Figure& figure, double limit) const {
     return evaluate(target, limit, [&](const std::string& scene) {
       const QueryRow* own = rowOf(performance_, scene, "bumper");
       return own == nullptr ? unknown : figure(*own);

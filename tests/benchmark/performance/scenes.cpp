@@ -17,7 +17,7 @@ namespace {
 constexpr double wallNormalUp = 0.3;
 
 bool isWall(const Scene& scene, const Scene::Triangle& triangle) {
-  const Eigen::Vector3d a = scene.corner(triangle, 0);
+  const Eigen::Vector3d& a = scene.corner(triangle, 0);
   const Eigen::Vector3d normal =
       (scene.corner(triangle, 1) - a).cross(scene.corner(triangle, 2) - a);
   return std::abs(normal.z()) <= wallNormalUp * normal.norm();
