@@ -48,10 +48,10 @@ class PlainMesh {
     for (const Wall& wall : walls.walls) {
       for (const std::uint32_t corner :
            scene.triangles[static_cast<std::size_t>(wall.triangle)].corners) {
-        const int own = number[corner];
+        const auto own = static_cast<std::size_t>(number[corner]);
         indices_.push_back(static_cast<dTriIndex>(own));
-        for (int axis = 0; axis < 3; ++axis) {
-          vertices_[static_cast<std::size_t>(3 * own + axis)] = scene.vertices[corner][axis];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          vertices_[3 * own + axis] = scene.vertices[corner][static_cast<int>(axis)];
         }
       }
     }

@@ -21,8 +21,6 @@ namespace bumper::testing {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
 constexpr int done = 0;
 constexpr int failed = 1;
@@ -92,8 +90,8 @@ TEST_F(Tools, WrongCommandLinesEndWithTwo) {
 
 TEST_F(Tools, BadRecordingsAreNamed) {
   std::ofstream(folder_.path() / "foreign.jsonl") << "{\"type\": \"FeatureCollection\"}\n";
-  std::ofstream(folder_.path() / "picture.jsonl") << "\x89PNG\r\n\x1a\n\0\0\0";
-  std::ofstream(folder_.path() / "empty.jsonl");
+  std::ofstream(folder_.path() / "picture.jsonl") << "\x89PNG\r\n\x1a\n\x01\x02";
+  std::ofstream(folder_.path() / "empty.jsonl") << "";
   std::string text;
   {
     std::ifstream stream(recording_);

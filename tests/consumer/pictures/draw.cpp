@@ -2,7 +2,7 @@
 
 #include "drawing.h"
 
-int main(int, char** argv) {
+int main(int /*count*/, char** argv) {
   bumper::writePng(drawRun(), argv[1]);
   return 0;
 }
