@@ -23,6 +23,7 @@ StandingCar carOn(const std::array<Eigen::Vector3d, 4>& wheels, double overhang,
 
 bool touches(const StandingCar& car, const std::array<Eigen::Vector3d, 3>& triangle) {
   std::vector<Eigen::Vector3d> polygon;
+  polygon.reserve(triangle.size());
   for (const Eigen::Vector3d& corner : triangle) {
     polygon.emplace_back(car.axes.transpose() * (corner - car.middle));
   }
