@@ -171,8 +171,7 @@ void Responder::Implementation::endContacts(Vehicle& vehicle) {
   std::erase_if(vehicle.memory.contacts, [&](const SustainedContact& contact) {
     if (time - contact.last < contactPause) return false;
     const bool near = std::any_of(segments.begin(), segments.end(), [&](const WallSegment& wall) {
-      return wall.group == contact.barrier.value &&
-             findTouch(around, Vector2::Zero(), 0.0, wall).has_value();
+      return wall.group == contact.barrier.value && findTouch(around, {}, wall).has_value();
     });
     if (near) return false;
     const Barrier& barrier = *barriers[static_cast<std::size_t>(contact.barrier.value)];
@@ -207,8 +206,7 @@ void Responder::Implementation::leaveOutPassages(Vehicle& vehicle) {
         passage.until > 0.0
             ? time < passage.until
             : std::any_of(segments.begin(), segments.end(), [&](const WallSegment& wall) {
-                return isOfIt(wall) &&
-                       findTouch(vehicle.query.outline(), Vector2::Zero(), 0.0, wall).has_value();
+                return isOfIt(wall) && findTouch(vehicle.query.outline(), {}, wall).has_value();
               });
     if (goesOn) std::erase_if(segments, isOfIt);
     return !goesOn;

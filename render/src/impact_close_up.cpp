@@ -97,7 +97,7 @@ Situation situationOf(const Scene& scene, const Recording& recording, std::size_
   line.start = s.contact - reach * s.tangent;
   line.end = s.contact + reach * s.tangent;
   line.normal = s.normal;
-  const Interference inside = interference(outline, s.centre, yaw, line);
+  const Interference inside = interference(outline, {s.centre, yaw}, line);
   const bool apart = !inside.empty && inside.length() > touching;
   s.a = apart ? inside.from : s.contact;
   s.b = apart ? inside.to : s.contact;

@@ -47,6 +47,9 @@ constexpr double lookAgain = 0.01;
 constexpr double unseenDepth = 1e-6;
 constexpr double looksInStep = 12.0;
 
+// More than the outline turns in a step in which that matters, rad.
+constexpr double turnsInStep = 0.2;
+
 WallSegment oriented(const WallSegment& wall, const Vector2& centre) {
   WallSegment result = wall;
   if (wall.isPost()) {
@@ -60,12 +63,12 @@ WallSegment oriented(const WallSegment& wall, const Vector2& centre) {
 }
 
 bool continues(const WallSegment& wall, const WallSegment& piece) {
+  if (std::abs(cross(wall.normal, piece.normal)) > mergeSine) return false;
   if (wall.settings != piece.settings) return false;
   const bool breaks =
       wall.settings->law == Law::energy && wall.settings->energyRoot == EnergyRoot::break_through;
   if (breaks && wall.group != piece.group) return false;
   if (wall.isPost() || piece.isPost() || wall.solid != piece.solid) return false;
-  if (std::abs(cross(wall.normal, piece.normal)) > mergeSine) return false;
   if (wall.normal.dot(piece.normal) < 0.0) return false;
   if (std::abs(wall.normal.dot(piece.start - wall.start)) > mergeOffset) return false;
   if (std::abs(wall.normal.dot(piece.end - wall.start)) > mergeOffset) return false;
@@ -81,8 +84,7 @@ CollisionStep::CollisionStep() { impacts_.reserve(maxImpacts); }
 double CollisionStep::reach(const VehicleParameters& vehicle, const PlanarMotion& motion,
                             double penetrationTime, double h) {
   // The fastest that a point of the outline can be with the energy there is.
-  const double radius = std::hypot(std::max(vehicle.massCentreToFront, vehicle.massCentreToRear),
-                                   0.5 * vehicle.width);
+  const double radius = Outline(vehicle).radius();
   const double energy = yawPlaneEnergy(motion, vehicle.mass, vehicle.yawInertia);
   const double fastest =
       std::sqrt(2.0 * energy * (1.0 / vehicle.mass + radius * radius / vehicle.yawInertia));
@@ -154,9 +156,9 @@ bool CollisionStep::isShielded(const Overlap& end) const {
 }
 
 std::optional<Overlap> CollisionStep::overlapWith(const WallSegment& wall, double time) const {
-  const auto byFace = [&] { return findOverlap(outline_, motion_.position, motion_.yaw, wall); };
+  const auto byFace = [&] { return findOverlap(outline_, place_, wall); };
   if (wall.settings->method == Method::paper) return byFace();
-  std::optional<Overlap> touch = findTouch(outline_, motion_.position, motion_.yaw, wall);
+  std::optional<Overlap> touch = findTouch(outline_, place_, wall);
   if (!touch || wall.isPost()) return touch;
   if (time == 0.0 && touch->depth > standsInDepth) return byFace();
   if (touch->byEnd && isShielded(*touch)) {
@@ -169,6 +171,7 @@ std::optional<Overlap> CollisionStep::overlapWith(const WallSegment& wall, doubl
 }
 
 void CollisionStep::lookAround(double time) {
+  place_ = motion_.placement();
   findTouched(time);
   findHidden();
 }
@@ -193,8 +196,7 @@ CollisionStep::Approach CollisionStep::touching(const Wall& wall) const {
   const Overlap& overlap = wall.overlap;
   Approach best = approach(firstPoint(motion_.position, overlap), overlap.normal);
   if (best.speed > restTolerance) return best;
-  const ContactPoints points =
-      touchingPoints(outline_, motion_.position, motion_.yaw, wall.segment, overlap);
+  const ContactPoints points = touchingPoints(outline_, place_, wall.segment, overlap);
   for (std::size_t k = 0; k < points.count; ++k) {
     const Approach point = approach(points.points[k], overlap.normal);
     if (point.speed > best.speed) best = point;
@@ -215,13 +217,12 @@ double CollisionStep::sinceTouch(const Wall& wall) const {
 CollisionStep::Approach CollisionStep::middleOfChain(const Wall& struck, double penetration) const {
   const Overlap& first = struck.overlap;
   const auto alone = [&] {
-    return approach(
-        contactPoint(outline_, motion_.position, motion_.yaw, struck.segment, first, penetration),
-        first.normal);
+    return approach(contactPoint(outline_, place_, struck.segment, first, penetration),
+                    first.normal);
   };
   if (struck.segment.isPost() || penetration <= 0.0) return alone();
-  const Vector2 moved =
-      motion_.position + moveTo(first, motion_.position, penetration) * first.normal;
+  Placement moved = place_;
+  moved.position += moveTo(first, motion_.position, penetration) * first.normal;
   Vector2 middle = Vector2::Zero();
   Vector2 normal = Vector2::Zero();
   double total = 0.0;
@@ -229,7 +230,7 @@ CollisionStep::Approach CollisionStep::middleOfChain(const Wall& struck, double 
     return &wall == &struck ? first.normal : lineOf(wall.segment, motion_.position).normal;
   };
   const auto include = [&](const Wall& wall) {
-    const Interference inside = interference(outline_, moved, motion_.yaw, wall.segment);
+    const Interference inside = interference(outline_, moved, wall.segment);
     const double bend = std::abs(cross(first.normal, facing(wall)));
     const double weight = inside.length() * std::max(0.0, 1.0 - bend / chainSine);
     if (inside.empty || weight == 0.0) return;
@@ -255,7 +256,7 @@ CollisionStep::Approach CollisionStep::middleOfChain(const Wall& struck, double 
   }
   if (total == 0.0) return alone();
   middle /= total;
-  return approach({.point = middle, .arm = middle - moved}, normal.normalized());
+  return approach({.point = middle, .arm = middle - moved.position}, normal.normalized());
 }
 
 // What lies behind a wall that the outline is already in cannot be hit: its back, the ends of a
@@ -295,11 +296,10 @@ CollisionStep::Next CollisionStep::firstNewWall() {
     if (!wall.touched || wall.hidden || wall.struck || wall.passed) continue;
     const bool asPaper = wall.segment.settings->method == Method::paper;
     // The paper's point is the middle of the overlap as it is.
-    const Approach first =
-        asPaper ? approach(contactPoint(outline_, motion_.position, motion_.yaw, wall.segment,
-                                        wall.overlap, wall.overlap.depth),
-                           wall.overlap.normal)
-                : touching(wall);
+    const Approach first = asPaper ? approach(contactPoint(outline_, place_, wall.segment,
+                                                           wall.overlap, wall.overlap.depth),
+                                              wall.overlap.normal)
+                                   : touching(wall);
     if (first.speed <= restTolerance) continue;
     const double since = std::max(wall.overlap.depth - touchTolerance, 0.0) / first.speed;
     if (since <= longest) continue;
@@ -367,8 +367,7 @@ void CollisionStep::answerTogether(double time) {
       owners[count++] = {.wall = &wall, .at = approach(contact, wall.overlap.normal)};
     };
     add(firstPoint(motion_.position, wall.overlap));
-    const ContactPoints touching =
-        touchingPoints(outline_, motion_.position, motion_.yaw, wall.segment, wall.overlap);
+    const ContactPoints touching = touchingPoints(outline_, place_, wall.segment, wall.overlap);
     for (std::size_t k = 0; k < touching.count; ++k) add(touching.points[k]);
   }
   const PlanarImpulse impulse =
@@ -420,29 +419,58 @@ Vector2 CollisionStep::easeOut(double h) const {
   return speed > maxEaseOut ? Vector2(maxEaseOut / speed * velocity) : velocity;
 }
 
-// How long what touches now can be left alone, s.
+// How long a wall that is touched can be left alone, s: none of the points that touch can approach
+// before, or be deeper than `unseenDepth`.
+double CollisionStep::quietTime(const Wall& wall) const {
+  // The most that the rate of any gap can change by itself.
+  const double turning = std::abs(motion_.yawRate);
+  const double bend = turning * (2.0 * motion_.velocity.norm() + turning * outline_.radius());
+  if (wall.hidden) return leastTime(unseenDepth, 0.0, bend);
+  const Overlap& overlap = wall.overlap;
+  const Vector2 tangent = turnedLeft(overlap.normal);
+  double time = never;
+  const auto include = [&](const ContactPoint& contact) {
+    const Vector2 velocity = velocityAt(motion_, contact.arm);
+    const double along = tangent.dot(contact.point);
+    const double slip = tangent.dot(velocity);
+    const double left = slip > 0.0 ? overlap.end - along : along - overlap.start;
+    const bool isCorner =
+        !overlap.byEnd && std::min(along - overlap.start, overlap.end - along) > touchTolerance;
+    // A corner is drawn away from the wall as long as it lies on the wall's side of the mass
+    // centre: it turns about that.
+    const double inwards = overlap.normal.dot(contact.arm);
+    if (!isCorner || inwards > -turnsInStep * outline_.radius()) {
+      time = std::min(time, leastTime(unseenDepth, -overlap.normal.dot(velocity), bend));
+    }
+    if (isCorner && slip != 0.0) time = std::min(time, left / std::abs(slip));
+  };
+  include(firstPoint(motion_.position, overlap));
+  const ContactPoints points = touchingPoints(outline_, place_, wall.segment, overlap);
+  for (std::size_t k = 0; k < points.count; ++k) include(points.points[k]);
+  return time;
+}
+
+// How long all that touches now can be left alone, s.
 double CollisionStep::pause(double h) const {
-  const bool anyTouch = std::any_of(walls_.begin(), walls_.end(),
-                                    [](const Wall& wall) { return wall.touched && !wall.passed; });
-  if (!anyTouch) return never;
-  // How fast the approach of two points that touch can change.
-  const double radius = std::hypot(std::max(outline_.front, outline_.rear), outline_.halfWidth);
-  const double yawRate = std::abs(motion_.yawRate);
-  const double bend = yawRate * (2.0 * motion_.velocity.norm() + yawRate * radius);
-  return std::max(std::sqrt(2.0 * unseenDepth / bend), h / looksInStep);
+  double time = never;
+  for (const Wall& wall : walls_) {
+    if (wall.touched && !wall.passed) time = std::min(time, quietTime(wall));
+  }
+  return std::max(time, h / looksInStep);
 }
 
 // The next touch after `from`, and its wall; null if there is none before `until`.
 CollisionStep::NextTouch CollisionStep::nextTouch(double from, double until) {
   NextTouch next{.time = until, .wall = nullptr};
+  const Sweep sweep(outline_, motion_);
   for (Wall& wall : walls_) {
     if (wall.passed || wall.segment.settings->method == Method::paper) continue;
     const double start = std::max(from, wall.unheardOf);
     if (start > next.time) continue;
     // motion_ is the motion at `from`.
     const double time =
-        from + timeOfTouch(outline_, motion_, wall.segment, wall.touched ? &wall.overlap : nullptr,
-                           start - from, next.time - from);
+        from + sweep.timeOfTouch(wall.segment, wall.touched ? &wall.overlap : nullptr, start - from,
+                                 next.time - from);
     if (time <= next.time) next = {.time = time, .wall = &wall};
   }
   return next;

@@ -28,17 +28,12 @@ struct WallCorner {
 };
 using WallCorners = std::array<WallCorner, 4>;
 
-WallCorners inWallAxes(const Outline& outline, const Vector2& position, double yaw,
-                       const Overlap& line) {
+WallCorners inWallAxes(const Outline& outline, const Placement& at, const Overlap& line) {
   const Vector2 tangent = turnedLeft(line.normal);
   const std::array<Vector2, 4> corners = outline.corners();
-  const double cosine = std::cos(yaw);
-  const double sine = std::sin(yaw);
   WallCorners result;
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Vector2& c = corners[k];
-    const Vector2 corner =
-        position + Vector2(cosine * c.x() - sine * c.y(), sine * c.x() + cosine * c.y());
+    const Vector2 corner = at.position + at.turned(corners[k]);
     result[k] = {.along = tangent.dot(corner), .depth = line.offset - line.normal.dot(corner)};
   }
   return result;
@@ -143,9 +138,9 @@ bool liesAlong(const WallCorners& corners, const Overlap& face, const Vector2& o
   });
 }
 
-std::optional<Overlap> touchPost(const Outline& outline, const Vector2& position, double yaw,
+std::optional<Overlap> touchPost(const Outline& outline, const Placement& at,
                                  const WallSegment& post) {
-  const Vector2 centre = rotated(post.start - position, -yaw);
+  const Vector2 centre = at.local(post.start);
   const Vector2 nearest(std::clamp(centre.x(), -outline.rear, outline.front),
                         std::clamp(centre.y(), -outline.halfWidth, outline.halfWidth));
   const double distance = (nearest - centre).norm();
@@ -160,11 +155,13 @@ std::optional<Overlap> touchPost(const Outline& outline, const Vector2& position
     normal = -sidesOf(outline)[inside.side].out;
     depth = post.radius - inside.distance;
   }
-  normal = rotated(normal, yaw);
+  normal = at.turned(normal);
   return touchAtPoint(normal, post.start + post.radius * normal, depth);
 }
 
 }  // namespace
+
+double Outline::radius() const { return std::hypot(std::max(front, rear), halfWidth); }
 
 std::array<Vector2, 4> Outline::corners() const {
   return {Vector2(front, halfWidth), Vector2(-rear, halfWidth), Vector2(-rear, -halfWidth),
@@ -181,10 +178,9 @@ Overlap lineOf(const WallSegment& wall, const Vector2& position) {
   return line;
 }
 
-Interference interference(const Outline& outline, const Vector2& position, double yaw,
-                          const WallSegment& wall) {
-  const Vector2 start = rotated(wall.start - position, -yaw);
-  const Vector2 along = rotated(wall.end - wall.start, -yaw);
+Interference interference(const Outline& outline, const Placement& at, const WallSegment& wall) {
+  const Vector2 start = at.local(wall.start);
+  const Vector2 along = at.turnedBack(wall.end - wall.start);
   double from = 0.0;
   double to = 1.0;
   for (const Side& side : sidesOf(outline)) {
@@ -205,28 +201,28 @@ Interference interference(const Outline& outline, const Vector2& position, doubl
           .to = wall.start + to * (wall.end - wall.start)};
 }
 
-std::optional<Overlap> findOverlap(const Outline& outline, const Vector2& position, double yaw,
+std::optional<Overlap> findOverlap(const Outline& outline, const Placement& at,
                                    const WallSegment& wall) {
-  const Interference inside = interference(outline, position, yaw, wall);
+  const Interference inside = interference(outline, at, wall);
   if (inside.empty) return std::nullopt;
-  Overlap overlap = lineOf(wall, position);
-  measure(overlap, inWallAxes(outline, position, yaw, overlap), inside);
+  Overlap overlap = lineOf(wall, at.position);
+  measure(overlap, inWallAxes(outline, at, overlap), inside);
   overlap.depth = std::max(overlap.depth, 0.0);
   return overlap;
 }
 
-std::optional<Overlap> findTouch(const Outline& outline, const Vector2& position, double yaw,
+std::optional<Overlap> findTouch(const Outline& outline, const Placement& at,
                                  const WallSegment& wall) {
-  if (wall.isPost()) return touchPost(outline, position, yaw, wall);
+  if (wall.isPost()) return touchPost(outline, at, wall);
 
-  const Vector2 start = rotated(wall.start - position, -yaw);
-  const Vector2 end = rotated(wall.end - position, -yaw);
+  const Vector2 start = at.local(wall.start);
+  const Vector2 end = at.local(wall.end);
   const Separation outside = separationFrom(outline, start, end);
   if (outside.distance > touchTolerance) return std::nullopt;
 
   // Which face of the wall the outline is less deep in.
   Overlap face = lineOf(wall, wall.start + wall.normal);
-  WallCorners corners = inWallAxes(outline, position, yaw, face);
+  WallCorners corners = inWallAxes(outline, at, face);
   const auto [highest, lowest] = std::minmax_element(
       corners.begin(), corners.end(),
       [](const WallCorner& a, const WallCorner& b) { return a.depth < b.depth; });
@@ -237,14 +233,13 @@ std::optional<Overlap> findTouch(const Outline& outline, const Vector2& position
     WallSegment turned = wall;
     turned.normal = -wall.normal;
     face = lineOf(turned, wall.start + turned.normal);
-    corners = inWallAxes(outline, position, yaw, face);
+    corners = inWallAxes(outline, at, face);
   }
   const double faceDistance = wall.solid ? inFront : std::max(inFront, behind);
 
-  const Interference inside = interference(outline, position, yaw, wall);
+  const Interference inside = interference(outline, at, wall);
   if (outside.distance > faceDistance + touchTolerance &&
-      !liesAlong(corners, face, rotated(sidesOf(outline)[outside.side].out, yaw),
-                 -outside.distance)) {
+      !liesAlong(corners, face, at.turned(sidesOf(outline)[outside.side].out), -outside.distance)) {
     // The end that is the deeper in that side, or the middle if both are.
     const Side side = sidesOf(outline)[outside.side];
     const double atStart = side.out.dot(start) - side.reach;
@@ -253,7 +248,7 @@ std::optional<Overlap> findTouch(const Outline& outline, const Vector2& position
     if (std::abs(atStart - atEnd) <= touchTolerance) {
       point = inside.empty ? Vector2(0.5 * (wall.start + wall.end)) : inside.middle();
     }
-    const Vector2 normal = rotated(-side.out, yaw);
+    const Vector2 normal = at.turned(-side.out);
     if (wall.solid && normal.dot(wall.normal) < 0.0) return std::nullopt;
     Overlap touch = touchAtPoint(normal, point, -outside.distance);
     if (!inside.empty) {
@@ -280,42 +275,43 @@ double moveTo(const Overlap& overlap, const Vector2& position, double penetratio
   return overlap.depth - std::clamp(penetration, 0.0, most);
 }
 
-ContactPoint contactPoint(const Outline& outline, const Vector2& position, double yaw,
-                          const WallSegment& wall, const Overlap& overlap, double penetration) {
+ContactPoint contactPoint(const Outline& outline, const Placement& at, const WallSegment& wall,
+                          const Overlap& overlap, double penetration) {
   if (wall.isPost()) {
     // The middle of the overlap between the post's foremost point and the outline.
     const Vector2 point =
         overlap.deepest * turnedLeft(overlap.normal) + overlap.offset * overlap.normal;
-    const double move = moveTo(overlap, position, 0.5 * penetration);
-    return {.point = point, .arm = point - position - move * overlap.normal};
+    const double move = moveTo(overlap, at.position, 0.5 * penetration);
+    return {.point = point, .arm = point - at.position - move * overlap.normal};
   }
-  const Vector2 moved = position + moveTo(overlap, position, penetration) * overlap.normal;
-  const Interference inside = interference(outline, moved, yaw, wall);
+  Placement moved = at;
+  moved.position += moveTo(overlap, at.position, penetration) * overlap.normal;
+  const Interference inside = interference(outline, moved, wall);
   // Without penetration rounding decides what is inside.
   const bool touchesOnly = inside.empty || penetration <= 0.0;
-  const Vector2 point = touchesOnly ? firstPoint(position, overlap).point : inside.middle();
-  return {.point = point, .arm = point - moved};
+  const Vector2 point = touchesOnly ? firstPoint(at.position, overlap).point : inside.middle();
+  return {.point = point, .arm = point - moved.position};
 }
 
-ContactPoints touchingPoints(const Outline& outline, const Vector2& position, double yaw,
-                             const WallSegment& wall, const Overlap& overlap) {
+ContactPoints touchingPoints(const Outline& outline, const Placement& at, const WallSegment& wall,
+                             const Overlap& overlap) {
   ContactPoints found;
   if (wall.isPost()) return found;
   if (overlap.byEnd) {
     for (const Vector2& end : {wall.start, wall.end}) {
-      const Vector2 local = rotated(end - position, -yaw);
+      const Vector2 local = at.local(end);
       if (separationFrom(outline, local, local).distance <= touchTolerance) {
-        found.add({.point = end, .arm = end - position});
+        found.add({.point = end, .arm = end - at.position});
       }
     }
     return found;
   }
   const Vector2 tangent = turnedLeft(overlap.normal);
-  const WallCorners corners = inWallAxes(outline, position, yaw, overlap);
+  const WallCorners corners = inWallAxes(outline, at, overlap);
   const auto add = [&](double along, double depth) {
     if (depth < -touchTolerance) return;
     const Vector2 onWall = along * tangent + overlap.offset * overlap.normal;
-    found.add({.point = onWall, .arm = onWall - depth * overlap.normal - position});
+    found.add({.point = onWall, .arm = onWall - depth * overlap.normal - at.position});
   };
   for (const WallCorner& corner : corners) {
     if (corner.along < overlap.start - touchTolerance) continue;

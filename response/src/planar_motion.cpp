@@ -6,9 +6,13 @@ namespace bumper {
 
 Vector2 rotated(const Vector2& v, double angle) {
   if (angle == 0.0) return v;  // often, and dear otherwise
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
+  return Placement(Vector2::Zero(), angle).turned(v);
+}
+
+Placement::Placement(const Vector2& itsPosition, double yaw) : position(itsPosition) {
+  if (yaw == 0.0) return;  // often, and dear otherwise
+  cosine = std::cos(yaw);
+  sine = std::sin(yaw);
 }
 
 PlanarMotion afterImpulse(PlanarMotion motion, const PlanarImpulse& impulse, double mass,

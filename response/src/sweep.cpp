@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace bumper {
 
@@ -26,45 +25,18 @@ struct Gap {
   [[nodiscard]] bool counts() const { return aside <= 0.0; }
 };
 
-// What free flight does to the outline: place and turn at a time.
+// The motion, and what many looks at it have in common.
 struct Flight {
-  struct Pose {
-    Vector2 centre;
-    double cosine;
-    double sine;
-    double rate;  // yaw rate
-    Vector2 velocity;
+  const PlanarMotion& motion;
+  double speed;     // of the mass centre
+  double turning;   // |yaw rate|
+  double from;      // when the search begins
+  Placement first;  // at `from`
 
-    [[nodiscard]] Vector2 turned(const Vector2& v) const {
-      return {cosine * v.x() - sine * v.y(), sine * v.x() + cosine * v.y()};
-    }
-    [[nodiscard]] Vector2 turnedBack(const Vector2& v) const {
-      return {cosine * v.x() + sine * v.y(), cosine * v.y() - sine * v.x()};
-    }
-  };
-  [[nodiscard]] Pose at(double time) const {
-    const double yaw = motion.yaw + time * motion.yawRate;
-    return {.centre = motion.position + time * motion.velocity,
-            .cosine = std::cos(yaw),
-            .sine = std::sin(yaw),
-            .rate = motion.yawRate,
-            .velocity = motion.velocity};
+  [[nodiscard]] Placement at(double time) const {
+    return {motion.position + time * motion.velocity, motion.yaw + time * motion.yawRate};
   }
-
-  Flight(PlanarMotion itsMotion, double itsFrom)
-      : motion(std::move(itsMotion)), from(itsFrom), first(at(from)) {}
-
-  PlanarMotion motion;
-  double from;
-  Pose first;  // at `from`
 };
-
-// How long it takes at least to go a distance at a rate, m/s, that changes no faster than `bend`.
-double leastTime(double distance, double rate, double bend) {
-  const double root = std::sqrt(rate * rate + 2.0 * bend * distance);
-  if (rate > 0.0) return 2.0 * distance / (root + rate);
-  return bend > 0.0 ? (root - rate) / bend : never;
-}
 
 // The first time at which a gap closes. `speed` bounds its rate, `bend` the rate's own rate, so
 // that nothing between two looks can be missed.
@@ -118,74 +90,67 @@ double cornerOnFace(const Flight& flight, const Vector2& corner, const WallSegme
   const double low = std::min(start, end) - touchTolerance;
   const double high = std::max(start, end) + touchTolerance;
   const double offset = normal.dot(wall.start);
-  const auto gapOf = [&](const Flight::Pose& pose) {
-    const Vector2 arm = pose.turned(corner);
-    const Vector2 place = pose.centre + arm;
+  const auto gapOf = [&](const Placement& at) {
+    const Vector2 arm = at.turned(corner);
+    const Vector2 place = at.position + arm;
     const double along = tangent.dot(place);
     return Gap{.distance = normal.dot(place) - offset,
-               .rate = normal.dot(pose.velocity + pose.rate * turnedLeft(arm)),
+               .rate = normal.dot(velocityAt(flight.motion, arm)),
                .aside = std::max(low - along, along - high)};
   };
-  const double radius = corner.norm();
-  const double yawRate = std::abs(flight.motion.yawRate);
-  return firstClosed(flight, gapOf, flight.motion.velocity.norm() + yawRate * radius,
-                     yawRate * yawRate * radius, until);
+  const double swing = flight.turning * corner.norm();
+  return firstClosed(flight, gapOf, flight.speed + swing, flight.turning * swing, until);
 }
 
 // A point of the barrier, or the middle of a post, and a side of the outline.
 double pointOnSide(const Flight& flight, const Vector2& point, const WallSegment& wall,
                    const Vector2& out, double reach, double low, double high, double until) {
   const Vector2 along = turnedLeft(out);
-  const double speed = flight.motion.velocity.norm();
-  const double yawRate = std::abs(flight.motion.yawRate);
   const double farthest = (point - flight.motion.position).norm() +
-                          speed * std::max(std::abs(flight.from), std::abs(until));
-  const double fastest = speed + yawRate * farthest;
-  const auto gapOf = [&](const Flight::Pose& pose) {
-    const Vector2 local = pose.turnedBack(point - pose.centre);
-    const Vector2 rate = -pose.turnedBack(pose.velocity) - pose.rate * turnedLeft(local);
+                          flight.speed * std::max(std::abs(flight.from), std::abs(until));
+  const double fastest = flight.speed + flight.turning * farthest;
+  const auto gapOf = [&](const Placement& at) {
+    const Vector2 local = at.local(point);
+    const Vector2 rate =
+        -at.turnedBack(flight.motion.velocity) - flight.motion.yawRate * turnedLeft(local);
     const double place = along.dot(local);
     Gap gap{.distance = out.dot(local) - reach - wall.radius,
             .rate = out.dot(rate),
             .aside = std::max(low - place, place - high)};
     if (wall.solid) {
       // A side that faces the inside has to turn first.
-      const double inwards = pose.turned(out).dot(wall.normal);
-      if (inwards > 0.0) gap.aside = std::max(gap.aside, fastest * inwards / yawRate);
+      const double inwards = at.turned(out).dot(wall.normal);
+      if (inwards > 0.0) gap.aside = std::max(gap.aside, fastest * inwards / flight.turning);
     }
     return gap;
   };
-  return firstClosed(flight, gapOf, fastest, 2.0 * yawRate * speed + yawRate * yawRate * farthest,
-                     until);
+  return firstClosed(flight, gapOf, fastest,
+                     flight.turning * (2.0 * flight.speed + flight.turning * farthest), until);
 }
 
 // A corner of the outline and the round of a post.
 double cornerOnPost(const Flight& flight, const Vector2& corner, const WallSegment& post,
                     double until) {
-  const auto gapOf = [&](const Flight::Pose& pose) {
-    const Vector2 arm = pose.turned(corner);
-    const Vector2 away = pose.centre + arm - post.start;
+  const auto gapOf = [&](const Placement& at) {
+    const Vector2 arm = at.turned(corner);
+    const Vector2 away = at.position + arm - post.start;
     const double distance = away.norm();
-    const Vector2 velocity = pose.velocity + pose.rate * turnedLeft(arm);
     return Gap{.distance = distance - post.radius,
-               .rate = distance > 0.0 ? away.dot(velocity) / distance : 0.0,
+               .rate = distance > 0.0 ? away.dot(velocityAt(flight.motion, arm)) / distance : 0.0,
                .aside = 0.0};
   };
-  const double radius = corner.norm();
-  const double yawRate = std::abs(flight.motion.yawRate);
-  const double speed = flight.motion.velocity.norm() + yawRate * radius;
-  return firstClosed(flight, gapOf, speed, yawRate * yawRate * radius + speed * speed / post.radius,
+  const double swing = flight.turning * corner.norm();
+  const double speed = flight.speed + swing;
+  return firstClosed(flight, gapOf, speed, flight.turning * swing + speed * speed / post.radius,
                      until);
 }
 
 // Where the outline can come at all, in its own frame at the start.
 struct Bounds {
-  Bounds(const Outline& outline, const Flight& flight, double radius, double time)
+  Bounds(const Outline& outline, double around)
       : middle(0.5 * (outline.front - outline.rear), 0.0),
         half(0.5 * (outline.front + outline.rear), outline.halfWidth) {
-    const double farthest = std::hypot(std::max(outline.front, outline.rear), outline.halfWidth);
-    const double speed = flight.motion.velocity.norm() + std::abs(flight.motion.yawRate) * farthest;
-    half.array() += speed * time + radius + 2.0 * touchTolerance;
+    half.array() += around;
   }
 
   /// Whether no point between two others lies there.
@@ -204,18 +169,37 @@ struct Bounds {
 
 }  // namespace
 
+double leastTime(double distance, double rate, double bend) {
+  const double root = std::sqrt(rate * rate + 2.0 * bend * distance);
+  if (rate > 0.0) return 2.0 * distance / (root + rate);
+  return bend > 0.0 ? (root - rate) / bend : never;
+}
+
 PlanarMotion advanced(PlanarMotion motion, double time) {
   motion.position += time * motion.velocity;
   motion.yaw += time * motion.yawRate;
   return motion;
 }
 
-double timeOfTouch(const Outline& outline, const PlanarMotion& motion, const WallSegment& wall,
-                   const Overlap* touch, double from, double until) {
-  const Flight flight(motion, from);
-  const Bounds bounds(outline, flight, wall.radius, until - from);
-  const Vector2 start = flight.first.turnedBack(wall.start - flight.first.centre);
-  const Vector2 end = flight.first.turnedBack(wall.end - flight.first.centre);
+Sweep::Sweep(const Outline& outline, const PlanarMotion& motion)
+    : outline_(outline),
+      motion_(motion),
+      start_(motion.placement()),
+      speed_(motion.velocity.norm()),
+      fastest_(speed_ + std::abs(motion.yawRate) * outline.radius()) {}
+
+double Sweep::timeOfTouch(const WallSegment& wall, const Overlap* touch, double from,
+                          double until) const {
+  const Placement begin = from == 0.0 ? start_ : advanced(motion_, from).placement();
+  const Flight flight{.motion = motion_,
+                      .speed = speed_,
+                      .turning = std::abs(motion_.yawRate),
+                      .from = from,
+                      .first = begin};
+  const double way = fastest_ * (until - from) + 2.0 * touchTolerance;
+  const Bounds bounds(outline_, way + wall.radius);
+  const Vector2 start = flight.first.local(wall.start);
+  const Vector2 end = flight.first.local(wall.end);
   if (bounds.excludes(start, end)) return never;
 
   double first = until;
@@ -227,20 +211,21 @@ double timeOfTouch(const Outline& outline, const PlanarMotion& motion, const Wal
   };
 
   const bool inFace = touch != nullptr && !touch->byEnd;
-  for (const Vector2& corner : outline.corners()) {
+  for (const Vector2& corner : outline_.corners()) {
     if (wall.isPost()) {
       consider(cornerOnPost(flight, corner, wall, first));
       continue;
     }
+    const Vector2 place = flight.first.position + flight.first.turned(corner);
+    double height = wall.normal.dot(place - wall.start);
+    if (std::abs(height) > way) continue;
     // A corner comes from the side that it is on, unless it has gone in a little.
     double front = 1.0;
     if (inFace) {
       front = touch->normal.dot(wall.normal) < 0.0 ? -1.0 : 1.0;
     } else if (!wall.solid) {
-      const Vector2 place = flight.first.centre + flight.first.turned(corner);
-      double height = wall.normal.dot(place - wall.start);
       if (std::abs(height) <= (touch != nullptr ? slidingDepth : touchTolerance)) {
-        height = wall.normal.dot(flight.first.centre - wall.start);
+        height = wall.normal.dot(flight.first.position - wall.start);
       }
       front = height < 0.0 ? -1.0 : 1.0;
     }
@@ -252,10 +237,10 @@ double timeOfTouch(const Outline& outline, const PlanarMotion& motion, const Wal
     double reach, low, high;  // the span is along out turned left
   };
   const Side sides[] = {
-      {{1.0, 0.0}, outline.front, -outline.halfWidth, outline.halfWidth},
-      {{-1.0, 0.0}, outline.rear, -outline.halfWidth, outline.halfWidth},
-      {{0.0, 1.0}, outline.halfWidth, -outline.front, outline.rear},
-      {{0.0, -1.0}, outline.halfWidth, -outline.rear, outline.front},
+      {{1.0, 0.0}, outline_.front, -outline_.halfWidth, outline_.halfWidth},
+      {{-1.0, 0.0}, outline_.rear, -outline_.halfWidth, outline_.halfWidth},
+      {{0.0, 1.0}, outline_.halfWidth, -outline_.front, outline_.rear},
+      {{0.0, -1.0}, outline_.halfWidth, -outline_.rear, outline_.front},
   };
   const auto considerSides = [&](const Vector2& point) {
     for (const Side& side : sides) {

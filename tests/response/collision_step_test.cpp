@@ -79,8 +79,7 @@ double energyOf(const PlanarMotion& motion) {
 
 /// How fast the first-touched point of an overlap closes on the wall, m/s.
 double approachSpeed(const PlanarMotion& motion, const WallSegment& wall, const Overlap& overlap) {
-  const ContactPoint first =
-      contactPoint(Outline(car), motion.position, motion.yaw, wall, overlap, 0.0);
+  const ContactPoint first = contactPoint(Outline(car), motion.placement(), wall, overlap, 0.0);
   return -velocityAt(motion, first.arm).dot(overlap.normal);
 }
 
@@ -128,13 +127,12 @@ TEST(CollisionStep, OneWallIsOverlapContactPointAndResponse) {
     const WallSegment wall = wallAt(motion, normal, random.uniform(0.001, 0.2), i);
     const StepOutcome outcome = step.resolve(car, motion, {&wall, 1}, 0.0);
 
-    const std::optional<Overlap> overlap =
-        findOverlap(Outline(car), motion.position, motion.yaw, wall);
+    const std::optional<Overlap> overlap = findOverlap(Outline(car), motion.placement(), wall);
     ASSERT_TRUE(overlap.has_value());
     const double approach = approachSpeed(motion, wall, *overlap);
     if (approach < 2.0 * paperSettings.restSpeed) continue;  // may be no event
-    const ContactPoint contact = contactPoint(Outline(car), motion.position, motion.yaw, wall,
-                                              *overlap, approach * paperSettings.penetrationTime);
+    const ContactPoint contact = contactPoint(Outline(car), motion.placement(), wall, *overlap,
+                                              approach * paperSettings.penetrationTime);
     const Impact impact{.wall = i,
                         .point = contact.point,
                         .normal = overlap->normal,
@@ -191,8 +189,7 @@ void expectSound(const StepOutcome& outcome, const PlanarMotion& motion,
                    1e-9, std::to_string(i));
   if (!outcome.settled) return;
   for (const WallSegment& wall : walls) {
-    const std::optional<Overlap> overlap =
-        findOverlap(Outline(car), motion.position, motion.yaw, wall);
+    const std::optional<Overlap> overlap = findOverlap(Outline(car), motion.placement(), wall);
     if (!overlap) continue;
     ASSERT_LE(approachSpeed(outcome.after, wall, *overlap), 1e-6) << i << " wall " << wall.id;
   }
@@ -371,7 +368,7 @@ TEST(CollisionStep, TheWallTouchedFirstAnswersFirst) {
     bool both = true;
     for (std::size_t k = 0; k < 2; ++k) {
       const std::optional<Overlap> overlap =
-          findOverlap(Outline(car), motion.position, motion.yaw, walls[k]);
+          findOverlap(Outline(car), motion.placement(), walls[k]);
       if (!overlap || approachSpeed(motion, walls[k], *overlap) < 1.0) {
         both = false;
         break;

@@ -73,10 +73,10 @@ double sideways(const Scene& s) {
 }
 
 std::optional<Overlap> overlapOf(const Scene& s) {
-  return findOverlap(s.outline, s.centre, s.yaw, s.wall);
+  return findOverlap(s.outline, {s.centre, s.yaw}, s.wall);
 }
 std::optional<ExactOverlap> exactOverlapOf(const Scene& s) {
-  return exactOverlap(s.outline, s.centre, s.yaw, s.wall);
+  return exactOverlap(s.outline, {s.centre, s.yaw}, s.wall);
 }
 
 TEST(Outline, CornersAreTheRectangleOfTheVehicle) {
@@ -153,11 +153,11 @@ TEST_P(ContactPointOf, ContactIsTheMiddleOfTheWallInside) {
     if (!exact || !overlap || exact->lengthInside < graze || exact->depth < graze) continue;
     for (const double penetration :
          {overlap->depth, 0.001, random.uniform(0.001, 0.1), random.uniform(0.1, 0.6)}) {
-      const std::optional<Plane> arm = exactArm(s.outline, s.centre, s.yaw, *exact, penetration);
+      const std::optional<Plane> arm = exactArm(s.outline, {s.centre, s.yaw}, *exact, penetration);
       if (!arm) continue;
       ++compared;
       const ContactPoint contact =
-          contactPoint(s.outline, s.centre, s.yaw, s.wall, *overlap, penetration);
+          contactPoint(s.outline, {s.centre, s.yaw}, s.wall, *overlap, penetration);
       // Where a side is nearly parallel to the wall, the wall's cut moves by 1/sin of the angle.
       const double tolerance = GetParam().heading == Heading::flush ? position : 1e-8;
       ASSERT_NEAR(apart(contact.arm, *arm), 0.0, tolerance)
@@ -186,7 +186,7 @@ TEST_P(ContactPointOf, FirstTouchIsTheDeepestPoint) {
     if (!exact || !overlap || exact->lengthInside < graze || exact->depth < graze) continue;
     const Plane touched = (exact->offset - exact->depth) * exact->normal +
                           exact->deepest * exact->tangent - s.centre.cast<Real>();
-    const ContactPoint contact = contactPoint(s.outline, s.centre, s.yaw, s.wall, *overlap, 0.0);
+    const ContactPoint contact = contactPoint(s.outline, {s.centre, s.yaw}, s.wall, *overlap, 0.0);
     ASSERT_NEAR(apart(contact.arm, touched), 0.0, position + 4.0 * flushness * sideways(s))
         << i << '\n'
         << s;
@@ -206,8 +206,9 @@ TEST_P(ContactPointOf, HowDeepTheStepWentDoesNotMatter) {
     // A short wall may be swallowed whole by the outline, but it does not get out of it.
     if (!deeperOverlap) continue;
     const double penetration = random.uniform(0.0, 0.2);
-    const ContactPoint a = contactPoint(s.outline, s.centre, s.yaw, s.wall, *overlap, penetration);
-    const ContactPoint b = contactPoint(deeper.outline, deeper.centre, deeper.yaw, deeper.wall,
+    const ContactPoint a =
+        contactPoint(s.outline, {s.centre, s.yaw}, s.wall, *overlap, penetration);
+    const ContactPoint b = contactPoint(deeper.outline, {deeper.centre, deeper.yaw}, deeper.wall,
                                         *deeperOverlap, penetration);
     ASSERT_NEAR((a.arm - b.arm).norm(), 0.0, 1e-8) << i << '\n' << s;
     ASSERT_NEAR((a.point - b.point).norm(), 0.0, 1e-8) << i << '\n' << s;
@@ -237,10 +238,11 @@ TEST(ContactPoint, PenetrationEndsAtTheMassCentre) {
     const std::optional<Overlap> overlap = overlapOf(s);
     ASSERT_TRUE(overlap.has_value());
     const double toCentre = overlap->depth + overlap->normal.dot(s.centre) - overlap->offset;
-    const ContactPoint most = contactPoint(s.outline, s.centre, s.yaw, s.wall, *overlap, toCentre);
+    const ContactPoint most =
+        contactPoint(s.outline, {s.centre, s.yaw}, s.wall, *overlap, toCentre);
     for (const double beyond : {toCentre + 0.5, 100.0}) {
       const ContactPoint contact =
-          contactPoint(s.outline, s.centre, s.yaw, s.wall, *overlap, beyond);
+          contactPoint(s.outline, {s.centre, s.yaw}, s.wall, *overlap, beyond);
       ASSERT_NEAR((contact.arm - most.arm).norm(), 0.0, 1e-9) << i << '\n' << s;
       ASSERT_NEAR(overlap->normal.dot(contact.arm), 0.0, 1e-9) << i << '\n' << s;
     }
@@ -259,11 +261,11 @@ TEST(ContactPoint, PaperFigure2) {
   const Vector2 corner = rotated({2.0, -1.0}, yaw);
   const Vector2 centre = Vector2(2.3, 7.0) - corner;
   const WallSegment wall{.start = {2.0, -50.0}, .end = {2.0, 50.0}, .normal = {1.0, 0.0}};
-  const std::optional<Overlap> overlap = findOverlap(outline, centre, yaw, wall);
+  const std::optional<Overlap> overlap = findOverlap(outline, {centre, yaw}, wall);
   ASSERT_TRUE(overlap.has_value());
   EXPECT_NEAR(overlap->depth, 0.3, 1e-14);
   EXPECT_NEAR((overlap->normal - Vector2(-1.0, 0.0)).norm(), 0.0, 1e-15);
-  const ContactPoint contact = contactPoint(outline, centre, yaw, wall, *overlap, 0.3);
+  const ContactPoint contact = contactPoint(outline, {centre, yaw}, wall, *overlap, 0.3);
   EXPECT_NEAR((contact.point - Vector2(2.0, 7.0)).norm(), 0.0, 1e-13);
 }
 

@@ -237,7 +237,7 @@ TEST_P(Sweep, FindsTheFirstTouchAndInventsNone) {
     if (separationAt(s.outline(), Flight(s.motion), s.wall, 0.0L).gap < clear) continue;
     ++i;
     const FirstTouch touch = firstTouch(s.outline(), s.motion, s.wall, 0.0L, s.step, Start::apart);
-    const double time = timeOfTouch(s.outline(), s.motion, s.wall, nullptr, 0.0, s.step);
+    const double time = Sweep(s.outline(), s.motion).timeOfTouch(s.wall, nullptr, 0.0, s.step);
     compare(s, touch, time, 0.0, s.step, tally);
   }
   tally.report();
@@ -277,7 +277,7 @@ TEST_P(Sweep, FindsTheNextTouchAfterAnImpact) {
     // Mostly the car flies off; give it time to turn and come back.
     s.step = time + std::pow(10.0, random.uniform(-3.0, -1.0));
     const PlanarMotion at = advanced(s.motion, time);
-    const std::optional<Overlap> overlap = findTouch(s.outline(), at.position, at.yaw, s.wall);
+    const std::optional<Overlap> overlap = findTouch(s.outline(), at.placement(), s.wall);
     if (!overlap) {
       tally.fail(s, "no touch", "at " + number(time));
       ++i;
@@ -286,8 +286,8 @@ TEST_P(Sweep, FindsTheNextTouchAfterAnImpact) {
     ++i;
     const FirstTouch next =
         firstTouch(s.outline(), s.motion, s.wall, time, s.step, Start::touching);
-    compare(s, next, timeOfTouch(s.outline(), s.motion, s.wall, &*overlap, time, s.step), time,
-            s.step, tally);
+    compare(s, next, Sweep(s.outline(), s.motion).timeOfTouch(s.wall, &*overlap, time, s.step),
+            time, s.step, tally);
   }
   tally.report();
   EXPECT_GT(tally.touches, cases / 20);
@@ -306,7 +306,7 @@ TEST(SolidWall, IsHitFromTheFrontOnly) {
     if (separationAt(s.outline(), Flight(s.motion), s.wall, 0.0L).gap < clear) continue;
     ++i;
     const FirstTouch touch = firstTouch(s.outline(), s.motion, s.wall, 0.0L, s.step, Start::apart);
-    const double time = timeOfTouch(s.outline(), s.motion, s.wall, nullptr, 0.0, s.step);
+    const double time = Sweep(s.outline(), s.motion).timeOfTouch(s.wall, nullptr, 0.0, s.step);
     const Real facing = touch.at.normal.dot(s.wall.normal.cast<Real>());
     if (touch.kind == FirstTouch::Kind::touch && facing < -aslant) {
       // It goes in from behind. That is no touch, nor does anything of the sort come before.
@@ -314,7 +314,7 @@ TEST(SolidWall, IsHitFromTheFrontOnly) {
       if (time < touch.time - exact) tally.fail(s, "invented", "at " + number(time));
       for (const Real t : {touch.time, std::min<Real>(time, s.step)}) {
         const PlanarMotion at = advanced(s.motion, static_cast<double>(t));
-        const std::optional<Overlap> overlap = findTouch(s.outline(), at.position, at.yaw, s.wall);
+        const std::optional<Overlap> overlap = findTouch(s.outline(), at.placement(), s.wall);
         if (overlap && overlap->normal.dot(s.wall.normal) < -aslant) {
           tally.fail(s, "hit from behind", "at " + number(t));
         }
@@ -363,11 +363,11 @@ struct Placed {
     motion.yawRate = yawRate;
   }
   [[nodiscard]] std::optional<Overlap> touch(const WallSegment& wall) const {
-    return findTouch(outline, motion.position, motion.yaw, wall);
+    return findTouch(outline, motion.placement(), wall);
   }
   [[nodiscard]] double time(const WallSegment& wall, double until) const {
     const std::optional<Overlap> overlap = touch(wall);
-    return timeOfTouch(outline, motion, wall, overlap ? &*overlap : nullptr, 0.0, until);
+    return Sweep(outline, motion).timeOfTouch(wall, overlap ? &*overlap : nullptr, 0.0, until);
   }
 };
 
@@ -479,8 +479,8 @@ TEST(Degenerate, AWallWithoutLengthIsMetAsAPoint) {
     if (separationAt(s.outline(), Flight(s.motion), s.wall, 0.0L).gap < clear) continue;
     ++i;
     const FirstTouch touch = firstTouch(s.outline(), s.motion, s.wall, 0.0L, s.step, Start::apart);
-    compare(s, touch, timeOfTouch(s.outline(), s.motion, s.wall, nullptr, 0.0, s.step), 0.0, s.step,
-            tally);
+    compare(s, touch, Sweep(s.outline(), s.motion).timeOfTouch(s.wall, nullptr, 0.0, s.step), 0.0,
+            s.step, tally);
   }
   tally.report();
   EXPECT_GT(tally.touches, cases / 5);
@@ -500,8 +500,8 @@ TEST(Degenerate, AMillimetreIsNotMissedAtTopSpeed) {
     if (separationAt(s.outline(), Flight(s.motion), s.wall, 0.0L).gap < clear) continue;
     ++i;
     const FirstTouch touch = firstTouch(s.outline(), s.motion, s.wall, 0.0L, s.step, Start::apart);
-    compare(s, touch, timeOfTouch(s.outline(), s.motion, s.wall, nullptr, 0.0, s.step), 0.0, s.step,
-            tally);
+    compare(s, touch, Sweep(s.outline(), s.motion).timeOfTouch(s.wall, nullptr, 0.0, s.step), 0.0,
+            s.step, tally);
   }
   tally.report();
   EXPECT_GT(tally.touches, cases / 2);
@@ -533,7 +533,7 @@ TEST_P(Sweep, TheFrameDoesNotMatter) {
     s.wall.solid = random.chance(0.3) && !s.wall.isPost();
     if (separationAt(s.outline(), Flight(s.motion), s.wall, 0.0L).gap < clear) continue;
     const auto time = [](const Scene& scene) {
-      return timeOfTouch(scene.outline(), scene.motion, scene.wall, nullptr, 0.0, scene.step);
+      return Sweep(scene.outline(), scene.motion).timeOfTouch(scene.wall, nullptr, 0.0, scene.step);
     };
     const double angle = random.uniform(-pi, pi);
     const double expected = time(s), mirror = time(mirrored(s)), turn = time(turned(s, angle));
@@ -579,8 +579,7 @@ TEST_P(Sweep, TouchIsTheShortestWayOut) {
     const Scene s = randomTouch(random, GetParam().shape);
     const Separation exactly =
         separation(s.outline(), s.motion.position.cast<Real>(), s.motion.yaw, s.wall);
-    const std::optional<Overlap> touch =
-        findTouch(s.outline(), s.motion.position, s.motion.yaw, s.wall);
+    const std::optional<Overlap> touch = findTouch(s.outline(), s.motion.placement(), s.wall);
     if (std::abs(exactly.gap - touchTolerance) < position) continue;
     if (touch.has_value() != (exactly.gap < touchTolerance)) {
       tally.fail(s, "touch or none",

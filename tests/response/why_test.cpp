@@ -68,10 +68,10 @@ TEST(Why, IndependentImpulsesInACornerCreateEnergy) {
 
   PlanarMotion independent = motion;
   for (const WallSegment& wall : walls) {
-    const std::optional<Overlap> overlap = findOverlap(outline, motion.position, motion.yaw, wall);
+    const std::optional<Overlap> overlap = findOverlap(outline, motion.placement(), wall);
     ASSERT_TRUE(overlap.has_value());
     const ContactPoint contact =
-        contactPoint(outline, motion.position, motion.yaw, wall, *overlap, overlap->depth);
+        contactPoint(outline, motion.placement(), wall, *overlap, overlap->depth);
     const Impact impact{
         .wall = wall.id, .point = contact.point, .normal = overlap->normal, .arm = contact.arm};
     const ImpactResponse response = respond(impact, motion, car.mass, car.yawInertia, settings);

@@ -111,6 +111,7 @@ class CollisionStep {
   void answerTogether(double time);
   void record(const Wall& wall, const Approach& at, double time, const ImpactResponse& response);
   NextTouch nextTouch(double from, double until);
+  [[nodiscard]] double quietTime(const Wall& wall) const;
   [[nodiscard]] double pause(double h) const;
 
   Next firstNewWall();
@@ -125,6 +126,7 @@ class CollisionStep {
   VehicleParameters vehicle_;
   Outline outline_{VehicleParameters{}};
   PlanarMotion motion_;
+  Placement place_;  // of motion_, when one last looked around
   std::span<const WallSegment> given_;
 
   std::vector<WallSegment> merged_;

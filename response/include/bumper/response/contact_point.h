@@ -23,6 +23,8 @@ struct Outline {
         rear(vehicle.massCentreToRear),
         halfWidth(0.5 * vehicle.width) {}
 
+  /// From the mass centre to the farthest corner, m.
+  [[nodiscard]] double radius() const;
   /// Front left, rear left, rear right, front right in the vehicle's frame: counter-clockwise.
   [[nodiscard]] std::array<Vector2, 4> corners() const;
 };
@@ -70,16 +72,16 @@ struct Overlap {
 /// normal points to the side of `position`, unless the wall is solid.
 Overlap lineOf(const WallSegment& wall, const Vector2& position);
 
-/// The overlap of the outline, placed at `position` and `yaw`, with a wall; nothing if the wall
+/// The overlap of the outline, placed somewhere, with a wall; nothing if the wall
 /// does not pass through it. The normal is the wall's own, towards the mass centre: the paper's
 /// view.
-std::optional<Overlap> findOverlap(const Outline& outline, const Vector2& position, double yaw,
+std::optional<Overlap> findOverlap(const Outline& outline, const Placement& at,
                                    const WallSegment& wall);
 
 /// The same within touchTolerance, and along the direction in which outline and wall overlap least:
 /// a face of the wall that a corner or side meets, or a side of the outline that an end of the wall
 /// meets.
-std::optional<Overlap> findTouch(const Outline& outline, const Vector2& position, double yaw,
+std::optional<Overlap> findTouch(const Outline& outline, const Placement& at,
                                  const WallSegment& wall);
 
 /// Where the response acts.
@@ -97,8 +99,8 @@ ContactPoint firstPoint(const Vector2& position, const Overlap& overlap);
 /// contact point is the middle of the part of the wall inside it. With the overlap's own depth this
 /// is the paper's a–b midpoint; with 0 it is the point of first touch. A penetration beyond the
 /// mass centre is taken as one at the mass centre.
-ContactPoint contactPoint(const Outline& outline, const Vector2& position, double yaw,
-                          const WallSegment& wall, const Overlap& overlap, double penetration);
+ContactPoint contactPoint(const Outline& outline, const Placement& at, const WallSegment& wall,
+                          const Overlap& overlap, double penetration);
 
 /// How far the outline is to be moved along the normal, m, so that its deepest point is
 /// `penetration` inside the wall: within bounds as contactPoint() says.
@@ -113,8 +115,7 @@ struct Interference {
   [[nodiscard]] double length() const { return (to - from).norm(); }
   [[nodiscard]] Vector2 middle() const { return 0.5 * (from + to); }
 };
-Interference interference(const Outline& outline, const Vector2& position, double yaw,
-                          const WallSegment& wall);
+Interference interference(const Outline& outline, const Placement& at, const WallSegment& wall);
 
 /// Up to six contact points.
 struct ContactPoints {
@@ -126,7 +127,7 @@ struct ContactPoints {
 
 /// All that touches or overlaps along the overlap's normal: the outline's corners behind the wall,
 /// over its length, and the wall's ends behind the outline's sides.
-ContactPoints touchingPoints(const Outline& outline, const Vector2& position, double yaw,
-                             const WallSegment& wall, const Overlap& overlap);
+ContactPoints touchingPoints(const Outline& outline, const Placement& at, const WallSegment& wall,
+                             const Overlap& overlap);
 
 }  // namespace bumper

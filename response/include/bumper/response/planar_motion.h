@@ -16,6 +16,26 @@ inline Vector2 turnedLeft(const Vector2& v) { return {-v.y(), v.x()}; }
 /// Rotates v by an angle, rad, positive to the left.
 Vector2 rotated(const Vector2& v, double angle);
 
+/// A place in the plane, m, and a heading, rad, whose sine and cosine are taken once.
+struct Placement {
+  Placement() = default;
+  Placement(const Vector2& itsPosition, double yaw);
+
+  Vector2 position = Vector2::Zero();
+  double cosine = 1.0;
+  double sine = 0.0;
+
+  /// A direction of the vehicle's frame in the plane's, and the other way round.
+  [[nodiscard]] Vector2 turned(const Vector2& v) const {
+    return {cosine * v.x() - sine * v.y(), sine * v.x() + cosine * v.y()};
+  }
+  [[nodiscard]] Vector2 turnedBack(const Vector2& v) const {
+    return {cosine * v.x() + sine * v.y(), cosine * v.y() - sine * v.x()};
+  }
+  /// A point of the plane in the vehicle's frame.
+  [[nodiscard]] Vector2 local(const Vector2& point) const { return turnedBack(point - position); }
+};
+
 /// Position and motion of a rigid vehicle in its yaw plane. The plane's frame is the caller's: for
 /// a flat world the world itself, in the ODE adapter the vehicle's own axes at the step's start.
 struct PlanarMotion {
@@ -23,6 +43,8 @@ struct PlanarMotion {
   double yaw = 0.0;                    ///< From the frame's x axis, rad, positive to the left.
   Vector2 velocity = Vector2::Zero();  ///< Mass centre, m/s.
   double yawRate = 0.0;                ///< rad/s, positive turning left.
+
+  [[nodiscard]] Placement placement() const { return {position, yaw}; }
 };
 
 /// Velocity of the body point at `arm` from the mass centre (both in the plane's frame).

@@ -15,12 +15,30 @@ PlanarMotion advanced(PlanarMotion motion, double time);
 /// The time of what does not happen, later than any other.
 inline constexpr double never = std::numeric_limits<double>::max();
 
-/// The first time in [from, until], s, at which a point of the outline and a point of the wall
-/// touch while they approach each other: a corner and a face, an end and a side, a post and either.
-/// `motion` is the vehicle's at time 0. `touch` is what findTouch() says at `from`, or null.
-/// `never` if there is none. Exact to rounding, whatever the speed and the step. Points that are in
-/// each other already count again once they have parted.
-double timeOfTouch(const Outline& outline, const PlanarMotion& motion, const WallSegment& wall,
-                   const Overlap* touch, double from, double until);
+/// How long it takes at least, s, to go a distance, m, at a rate, m/s, that changes no faster than
+/// `bend`, m/s². A negative rate leads away first.
+double leastTime(double distance, double rate, double bend);
+
+/// The outline in free flight from time 0 on, at constant velocity and yaw rate.
+class Sweep {
+ public:
+  /// `motion` is the vehicle's at time 0.
+  Sweep(const Outline& outline, const PlanarMotion& motion);
+
+  /// The first time in [from, until], s, at which a point of the outline and a point of the wall
+  /// touch while they approach each other: a corner and a face, an end and a side, a post and
+  /// either. `touch` is what findTouch() says at `from`, or null. `never` if there is none. Exact
+  /// to rounding, whatever the speed and the step. Points that are in each other already count
+  /// again once they have parted.
+  [[nodiscard]] double timeOfTouch(const WallSegment& wall, const Overlap* touch, double from,
+                                   double until) const;
+
+ private:
+  Outline outline_;
+  PlanarMotion motion_;
+  Placement start_;
+  double speed_;    // of the mass centre, m/s
+  double fastest_;  // no point of the outline is faster, m/s
+};
 
 }  // namespace bumper
