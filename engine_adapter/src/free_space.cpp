@@ -34,9 +34,6 @@ constexpr double leastBehind = 0.25;
 constexpr double mostAhead = 32.0;
 constexpr double slow = 1.0;
 
-// How far the vehicle's up axis may turn, rad.
-constexpr double upTurn = 0.05;
-
 // The widths of strips that are tried, m, the turns of the forward axis that go with them, rad, and
 // how far apart they are looked at, m: the more room, the longer it lasts.
 struct Width {
@@ -50,15 +47,7 @@ constexpr std::array<Width, 4> widths = {
 // A strip that the vehicle leaves within so many steps is not worth the look.
 constexpr double fewestSteps = 4.0;
 
-// How far it may rise or sink, m.
-constexpr double heightChange = 16.0;
-
 double square(double value) { return value * value; }
-
-double squaredNorm(const dReal* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
-
-// Of the angle between a direction and its small turn.
-double cosineOf(double angle) { return 1.0 - 0.5 * angle * angle; }
 
 }  // namespace
 
@@ -80,30 +69,6 @@ FreeSpace::FreeSpace(const VehicleBodies& bodies, const VehicleParameters& param
                        .y = 0.0,
                        .z = 0.0});
   }
-}
-
-bool FreeSpace::holds(double h) {
-  if (!(h <= step_) || --stepsLeft_ < 0) return false;
-  const dReal* r = rotation_;
-  const double forward = r[0] * forward_.x() + r[4] * forward_.y() + r[8] * forward_.z();
-  const double up = r[2] * up_.x() + r[6] * up_.y() + r[10] * up_.z();
-  bool inside = r[10] >= minUprightness_ && forward >= leastForward_ && up >= cosineOf(upTurn) &&
-                squaredNorm(turning_) <= turning2_;
-  double force2 = 0.0;
-  double torque2 = 0.0;
-  for (const Body& body : bodies_) {
-    const double x = body.position[0] - body.x;
-    const double y = body.position[1] - body.y;
-    const double along = x * forwardX_ + y * forwardY_;
-    const double across = y * forwardX_ - x * forwardY_;
-    inside = inside && along <= strip_.ahead && -along <= strip_.behind &&
-             std::abs(across) <= strip_.aside &&
-             std::abs(body.position[2] - body.z) <= heightChange &&
-             squaredNorm(body.velocity) <= speed2_;
-    force2 += squaredNorm(body.force);
-    torque2 += squaredNorm(body.torque);
-  }
-  return inside && force2 <= force2_ && torque2 <= torque2_;
 }
 
 void FreeSpace::allowMotion(const VehicleState& state) {
@@ -201,6 +166,8 @@ bool FreeSpace::find(const std::vector<std::unique_ptr<Barrier>>& barriers,
                      const VehicleState& state, double gravity, double penetrationTime, double h) {
   step_ = 0.0;
   if (--stepsUntilLook_ > 0) return false;
+  // It stays upright while its up axis turns no further than it may.
+  if (state.up().z() - upTurn < minUprightness_) return false;
   const Eigen::Vector2d velocity = state.velocity.head<2>();
   const double speed = velocity.norm();
   // Along the way it goes; the heading of one at rest.
@@ -224,6 +191,8 @@ bool FreeSpace::find(const std::vector<std::unique_ptr<Barrier>>& barriers,
     strip_ = {.ahead = ahead, .behind = leastBehind, .aside = width.aside};
     if (!fits(barriers, state, reach, width.turn, width.spacing)) continue;
     if (strip_.ahead < std::min(fewestSteps * h * speed, 0.5 * ahead)) continue;
+    strip_.middle = 0.5 * (strip_.ahead - strip_.behind);
+    strip_.half = 0.5 * (strip_.ahead + strip_.behind);
     leastForward_ = cosineOf(width.turn);
     step_ = h;
     stepsLeft_ = stepsBetweenLooks;

@@ -2,6 +2,7 @@
 
 #include <ode/ode.h>
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -50,7 +51,17 @@ class FreeSpace {
     double ahead = 0.0;   // m, by which the vehicle can move on
     double behind = 0.0;  // m, by which it can move back
     double aside = 0.0;   // m, by which it can move to either side
+    double middle = 0.0;  // of the way from -behind to ahead, m
+    double half = 0.0;    // of its length, m
   };
+
+  // How far the vehicle's up axis may turn, rad, and it may rise or sink, m.
+  static constexpr double upTurn = 0.05;
+  static constexpr double heightChange = 16.0;
+
+  // Less than the cosine of an angle, rad.
+  static constexpr double cosineOf(double angle) { return 1.0 - 0.5 * angle * angle; }
+  static double squaredNorm(const dReal* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
   void allowMotion(const VehicleState& state);
   [[nodiscard]] double reachOfAllowed(const VehicleState& state, double gravity,
@@ -84,5 +95,30 @@ class FreeSpace {
   double force2_ = 0.0;    // of all bodies together
   double torque2_ = 0.0;
 };
+
+// Here, because it is all that most steps do.
+inline bool FreeSpace::holds(double h) {
+  if (!(h <= step_) || --stepsLeft_ < 0) return false;
+  const dReal* r = rotation_;
+  const double forward = r[0] * forward_.x() + r[4] * forward_.y() + r[8] * forward_.z();
+  const double up = r[2] * up_.x() + r[6] * up_.y() + r[10] * up_.z();
+  // A number that is not finite fails its comparison.
+  bool inside =
+      forward >= leastForward_ && up >= cosineOf(upTurn) && squaredNorm(turning_) <= turning2_;
+  double force2 = 0.0;
+  double torque2 = 0.0;
+  for (const Body& body : bodies_) {
+    const double x = body.position[0] - body.x;
+    const double y = body.position[1] - body.y;
+    const double along = x * forwardX_ + y * forwardY_ - strip_.middle;
+    const double across = y * forwardX_ - x * forwardY_;
+    inside = inside && std::abs(along) <= strip_.half && std::abs(across) <= strip_.aside &&
+             std::abs(body.position[2] - body.z) <= heightChange &&
+             squaredNorm(body.velocity) <= speed2_;
+    force2 += squaredNorm(body.force);
+    torque2 += squaredNorm(body.torque);
+  }
+  return inside && force2 <= force2_ && torque2 <= torque2_;
+}
 
 }  // namespace bumper

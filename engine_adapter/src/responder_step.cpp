@@ -122,7 +122,7 @@ void Responder::Implementation::report(Vehicle& vehicle, const VehicleState& sta
   event.normal = state.toWorld(impact.normal);
   event.arm = rotated(impact.arm, -response.before.yaw);
   event.law = response.law;
-  event.angles = response.angles;
+  event.angles = anglesOfAttack(impact, response.before);
   event.approachSpeed = response.approachSpeed;
   event.restitution = response.restitution;
   event.friction = response.friction;

@@ -45,20 +45,29 @@ AngleCurve AngleCurve::table(std::vector<std::pair<double, double>> points) {
   return curve;
 }
 
-double AngleCurve::operator()(double angle) const {
-  if (shape_ == Shape::table) {
-    if (angle <= points_.front().first) return points_.front().second;
-    const auto above =
-        std::find_if(points_.begin(), points_.end(),
-                     [angle](const std::pair<double, double>& p) { return p.first >= angle; });
-    if (above == points_.end()) return points_.back().second;
-    const auto below = above - 1;
-    const double share = (angle - below->first) / (above->first - below->first);
-    return below->second + share * (above->second - below->second);
-  }
-  const double c = std::cos(angle);
-  const double weight = shape_ == Shape::cosine ? c : c * c;
+double AngleCurve::inTable(double angle) const {
+  if (angle <= points_.front().first) return points_.front().second;
+  const auto above =
+      std::find_if(points_.begin(), points_.end(),
+                   [angle](const std::pair<double, double>& p) { return p.first >= angle; });
+  if (above == points_.end()) return points_.back().second;
+  const auto below = above - 1;
+  const double share = (angle - below->first) / (above->first - below->first);
+  return below->second + share * (above->second - below->second);
+}
+
+double AngleCurve::atCosine(double cosine) const {
+  const double weight = shape_ == Shape::cosine ? cosine : cosine * cosine;
   return headOn_ + (grazing_ - headOn_) * weight;
+}
+
+double AngleCurve::operator()(double angle) const {
+  return shape_ == Shape::table ? inTable(angle) : atCosine(std::cos(angle));
+}
+
+double AngleCurve::operator()(const AttackDirection& attack) const {
+  if (shape_ == Shape::table) return inTable(attack.angle());
+  return grazing_ == headOn_ ? headOn_ : atCosine(attack.cosine());
 }
 
 std::pair<double, double> AngleCurve::range() const {
@@ -74,20 +83,15 @@ std::pair<double, double> AngleCurve::range() const {
   return {low, high};
 }
 
-double AnglesOfAttack::by(AngleDefinition definition) const {
-  switch (definition) {
-    case AngleDefinition::contact_velocity:
-      return contactVelocity;
-    case AngleDefinition::centre_velocity:
-      return centreVelocity;
-    case AngleDefinition::heading:
-      return heading;
-  }
-  return contactVelocity;
+double AttackDirection::angle() const { return std::atan2(across, along); }
+
+double AttackDirection::cosine() const {
+  const double length2 = across * across + along * along;
+  return length2 > 0.0 ? along / std::sqrt(length2) : 1.0;
 }
 
-double angleToWall(const Vector2& direction, const Vector2& normal) {
-  return std::atan2(std::abs(direction.dot(normal)), std::abs(cross(direction, normal)));
+AttackDirection attackOn(const Vector2& direction, const Vector2& normal) {
+  return {.across = std::abs(direction.dot(normal)), .along = std::abs(cross(direction, normal))};
 }
 
 }  // namespace bumper

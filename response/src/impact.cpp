@@ -34,15 +34,10 @@ ContactBody bodyAt(const Impact& impact, const PlanarMotion& motion, double mass
 }
 
 // What is known of an impact before anything answers it.
-ImpactResponse before(const Impact& impact, const PlanarMotion& motion,
-                      const ContactVelocity& velocity) {
+ImpactResponse before(const PlanarMotion& motion, const ContactVelocity& velocity) {
   ImpactResponse response;
   response.before = motion;
   response.approachSpeed = -velocity.normal;
-  response.angles = {
-      .contactVelocity = std::atan2(std::abs(velocity.normal), std::abs(velocity.tangent)),
-      .centreVelocity = angleToWall(motion.velocity, impact.normal),
-      .heading = angleToWall(rotated(Vector2::UnitX(), motion.yaw), impact.normal)};
   return response;
 }
 
@@ -57,6 +52,28 @@ void apply(ImpactResponse& response, const PlanarImpulse& impulse, double mass, 
 
 }  // namespace
 
+AttackDirection attackDirection(const Impact& impact, const PlanarMotion& motion,
+                                AngleDefinition definition) {
+  switch (definition) {
+    case AngleDefinition::contact_velocity:
+      break;
+    case AngleDefinition::centre_velocity:
+      return attackOn(motion.velocity, impact.normal);
+    case AngleDefinition::heading:
+      return attackOn(rotated(Vector2::UnitX(), motion.yaw), impact.normal);
+  }
+  return attackOn(velocityAt(motion, impact.arm), impact.normal);
+}
+
+AnglesOfAttack anglesOfAttack(const Impact& impact, const PlanarMotion& motion) {
+  const auto by = [&](AngleDefinition definition) {
+    return attackDirection(impact, motion, definition).angle();
+  };
+  return {.contactVelocity = by(AngleDefinition::contact_velocity),
+          .centreVelocity = by(AngleDefinition::centre_velocity),
+          .heading = by(AngleDefinition::heading)};
+}
+
 ImpactResponse respond(const Impact& impact, const PlanarMotion& motion, double mass,
                        double yawInertia, const ResponseSettings& settings, Rebound rebound) {
   const ContactBody vehicle = bodyAt(impact, motion, mass, yawInertia);
@@ -64,10 +81,10 @@ ImpactResponse respond(const Impact& impact, const PlanarMotion& motion, double 
   const ContactVelocity velocity = contactVelocity(vehicle, fixedBarrier, impact.normal);
   const double energyBefore = yawPlaneEnergy(motion, mass, yawInertia);
 
-  ImpactResponse response = before(impact, motion, velocity);
+  ImpactResponse response = before(motion, velocity);
   response.law = rebound == Rebound::elastic ? Law::restitution : settings.law;
-  const double angle = response.angles.by(settings.angle);
-  response.friction = settings.friction(angle);
+  const AttackDirection attack = attackDirection(impact, motion, settings.angle);
+  response.friction = settings.friction(attack);
 
   double fade = rebound == Rebound::none ? 0.0 : 1.0;
   if (settings.method == Method::bumper && settings.restSpeed > 0.0) {
@@ -75,7 +92,7 @@ ImpactResponse respond(const Impact& impact, const PlanarMotion& motion, double 
   }
 
   if (settings.law == Law::energy && rebound != Rebound::elastic) {
-    response.energyAsked = settings.energyRemaining(angle);
+    response.energyAsked = settings.energyRemaining(attack);
     const EnergySolution solution =
         answerByEnergy(mobility, velocity,
                        {.energyRatio = response.energyAsked,
@@ -92,7 +109,7 @@ ImpactResponse respond(const Impact& impact, const PlanarMotion& motion, double 
                             solution.contact.velocityAfter.normal < 0.0;
   } else {
     response.energyAsked = std::numeric_limits<double>::quiet_NaN();
-    response.restitution = rebound == Rebound::elastic ? 1.0 : fade * settings.restitution(angle);
+    response.restitution = rebound == Rebound::elastic ? 1.0 : fade * settings.restitution(attack);
     response.contact = answerByRestitution(
         mobility, velocity, response.restitution,
         {.kind = settings.frictionKind, .value = response.friction}, settings.method);
@@ -105,7 +122,7 @@ ImpactResponse plainResponse(const Impact& impact, const PlanarMotion& motion, d
                              double yawInertia, const PlanarImpulse& impulse) {
   const ContactBody vehicle = bodyAt(impact, motion, mass, yawInertia);
   const ContactVelocity velocity = contactVelocity(vehicle, fixedBarrier, impact.normal);
-  ImpactResponse response = before(impact, motion, velocity);
+  ImpactResponse response = before(motion, velocity);
   response.energyAsked = std::numeric_limits<double>::quiet_NaN();
   response.contact.impulse = {.normal = impulse.linear.dot(impact.normal),
                               .tangent = impulse.linear.dot(turnedLeft(impact.normal))};

@@ -81,27 +81,34 @@ TEST(AngleCurve, BadValuesAreRefused) {
   EXPECT_NO_THROW(AngleCurve::table({{0.4, 0.1}, {0.5, 0.2}}));
 }
 
-TEST(AngleToWall, IsFoldedAndCountsFromTheWall) {
+TEST(AttackDirection, IsFoldedAndCountsFromTheWall) {
   const Vector2 normal(0.0, 1.0);
   for (int i = -720; i <= 720; ++i) {
     const double angle = 0.5 * i * degree;
     const double folded = std::asin(std::abs(std::sin(angle)));
     const Vector2 direction = 7.0 * Vector2(std::cos(angle), std::sin(angle));
-    EXPECT_NEAR(angleToWall(direction, normal), folded, 1e-7) << i;
-    EXPECT_NEAR(angleToWall(direction, -normal), folded, 1e-7) << i;
-    EXPECT_GE(angleToWall(direction, normal), 0.0);
-    EXPECT_LE(angleToWall(direction, normal), headOn);
+    EXPECT_NEAR(attackOn(direction, normal).angle(), folded, 1e-7) << i;
+    EXPECT_NEAR(attackOn(direction, -normal).angle(), folded, 1e-7) << i;
+    EXPECT_GE(attackOn(direction, normal).angle(), 0.0);
+    EXPECT_LE(attackOn(direction, normal).angle(), headOn);
   }
-  EXPECT_NEAR(angleToWall({1.0, 1e-9}, normal), 1e-9, 1e-20);
-  EXPECT_NEAR(headOn - angleToWall({1e-9, 1.0}, normal), 1e-9, 1e-15);
-  EXPECT_EQ(angleToWall(Vector2::Zero(), normal), 0.0);
+  EXPECT_NEAR(attackOn({1.0, 1e-9}, normal).angle(), 1e-9, 1e-20);
+  EXPECT_NEAR(headOn - attackOn({1e-9, 1.0}, normal).angle(), 1e-9, 1e-15);
+  EXPECT_EQ(attackOn(Vector2::Zero(), normal).angle(), 0.0);
 }
 
-TEST(AnglesOfAttack, AreReadByDefinition) {
-  const AnglesOfAttack angles{.contactVelocity = 0.1, .centreVelocity = 0.2, .heading = 0.3};
-  EXPECT_EQ(angles.by(AngleDefinition::contact_velocity), 0.1);
-  EXPECT_EQ(angles.by(AngleDefinition::centre_velocity), 0.2);
-  EXPECT_EQ(angles.by(AngleDefinition::heading), 0.3);
+TEST(AttackDirection, IsReadByACurveAsItsAngle) {
+  for (const AngleCurve& curve :
+       {AngleCurve::constant(0.4), AngleCurve::cosine(0.3, 0.05), AngleCurve::halfCosine(0.9, 0.04),
+        AngleCurve::table({{0.2, 0.1}, {0.7, 0.5}, {1.2, 0.3}})}) {
+    for (int i = 0; i <= 900; ++i) {
+      const double angle = 0.1 * i * degree;
+      const AttackDirection attack{.across = 17.0 * std::sin(angle),
+                                   .along = 17.0 * std::abs(std::cos(angle))};
+      EXPECT_NEAR(curve(attack), curve(angle), 1e-15) << i;
+    }
+    EXPECT_EQ(curve(AttackDirection{}), curve(0.0));
+  }
 }
 
 }  // namespace

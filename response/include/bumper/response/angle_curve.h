@@ -7,6 +7,20 @@
 
 namespace bumper {
 
+/// A direction of attack on a wall, by its parts across and along it, ≥ 0 and in any unit. The
+/// paper's curves need the angle's cosine only, which costs much less than the angle.
+struct AttackDirection {
+  double across = 0.0;
+  double along = 0.0;
+
+  /// From 0 (grazing) to π/2 (head-on), rad; 0 for a zero direction.
+  [[nodiscard]] double angle() const;
+  [[nodiscard]] double cosine() const;
+};
+
+/// A direction against a wall with the given unit normal.
+AttackDirection attackOn(const Vector2& direction, const Vector2& normal);
+
 /// A quantity as a function of the angle of attack: restitution, friction, or the fraction of
 /// energy that remains. The paper calls its curves "cosine shaped" (Figure 4), which can be read in
 /// two ways; both are here, and any table. All throw Error on a number that is not finite.
@@ -24,12 +38,16 @@ class AngleCurve {
 
   /// The value at an angle of attack from 0 (grazing) to π/2 (head-on), rad.
   [[nodiscard]] double operator()(double angle) const;
+  [[nodiscard]] double operator()(const AttackDirection& attack) const;
 
   /// Smallest and largest value over 0 to π/2.
   [[nodiscard]] std::pair<double, double> range() const;
 
  private:
   enum class Shape { cosine, half_cosine, table };
+  [[nodiscard]] double atCosine(double cosine) const;
+  [[nodiscard]] double inTable(double angle) const;
+
   Shape shape_ = Shape::cosine;
   double grazing_ = 0.0;
   double headOn_ = 0.0;
@@ -48,12 +66,6 @@ struct AnglesOfAttack {
   double contactVelocity = 0.0;
   double centreVelocity = 0.0;
   double heading = 0.0;
-
-  [[nodiscard]] double by(AngleDefinition definition) const;
 };
-
-/// Angle between a direction and a wall with the given unit normal, folded to [0, π/2], rad; 0 for
-/// a zero direction.
-double angleToWall(const Vector2& direction, const Vector2& normal);
 
 }  // namespace bumper

@@ -19,7 +19,6 @@ struct Impact {
 /// What the response makes of an impact.
 struct ImpactResponse {
   Law law = Law::restitution;
-  AnglesOfAttack angles;
   double approachSpeed = 0.0;  ///< m/s, > 0 when closing
   double restitution = 0.0;    ///< asked by e(α), or as it came out of the energy law
   double friction = 0.0;       ///< asked by μ(α)
@@ -32,6 +31,13 @@ struct ImpactResponse {
   PlanarMotion before;
   PlanarMotion after;
 };
+
+/// The direction of attack of an impact of a vehicle that moves as `motion` says.
+AttackDirection attackDirection(const Impact& impact, const PlanarMotion& motion,
+                                AngleDefinition definition);
+
+/// Its angle by all three definitions.
+AnglesOfAttack anglesOfAttack(const Impact& impact, const PlanarMotion& motion);
 
 /// What becomes of the rebound that the settings ask for.
 enum class Rebound {
