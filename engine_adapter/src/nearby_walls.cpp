@@ -10,9 +10,12 @@ namespace {
 
 // How far the region goes beyond the reach, m: on all sides, and ahead by what the vehicle passes
 // in this time, s, but no further than that.
-constexpr double allAround = 0.5;
+constexpr double allAround = 1.0;
 constexpr double timeAhead = 0.2;
 constexpr double mostAhead = 6.0;
+
+// Walls lie in one plane within this, m.
+constexpr double sameOffset = 1e-9;
 
 // What is left of a wall that leans lies in the rectangle around its part in the band.
 constexpr double aroundCorner = 1.4143;
@@ -46,6 +49,8 @@ void NearbyWalls::list(WallQuery& query, const std::vector<std::unique_ptr<Barri
   const double radius =
       query.radius() + std::max(margins_.front, margins_.rear) + margins_.side + margins_.height;
   walls_.clear();
+  sheets_.clear();
+  lastWithin_ = 0;
   for (const std::unique_ptr<Barrier>& barrier : barriers) {
     if (barrier == nullptr || barrier->clearanceAtLeast(centre_, radius) > radius) continue;
     if (barrier->mesh() == nullptr) {
@@ -54,7 +59,8 @@ void NearbyWalls::list(WallQuery& query, const std::vector<std::unique_ptr<Barri
            .wall = {.corners = {centre_, centre_, centre_}, .normal = Eigen::Vector3d::Zero()},
            .centre = centre_,
            .radius = std::numeric_limits<double>::infinity(),
-           .offset = 0.0});
+           .sheet = sheetOf(
+               {.corners = {centre_, centre_, centre_}, .normal = Eigen::Vector3d::Zero()})});
       continue;
     }
     for (const int number : query.list(*barrier->mesh(), state, margins_)) {
@@ -66,47 +72,88 @@ void NearbyWalls::list(WallQuery& query, const std::vector<std::unique_ptr<Barri
                         .wall = wall,
                         .centre = 0.5 * (low + high),
                         .radius = aroundCorner * 0.5 * (high - low).norm(),
-                        .offset = wall.normal.dot(corners[0])});
+                        .sheet = sheetOf(wall)});
     }
   }
   isKnown_ = true;
 }
 
-// Whether all of the outline's reach, over the band, lies on one side of the wall's plane.
-bool NearbyWalls::isBeyondPlane(const WallQuery& query, const VehicleState& state, const Near& near,
-                                double reach) {
-  const Outline& outline = query.outline();
-  const Eigen::Vector3d normal = state.axes.transpose() * near.wall.normal;
-  const Eigen::Vector3d middle = query.middle();
-  const double across =
-      std::abs(near.offset - near.wall.normal.dot(state.massCentre) - normal.dot(middle));
-  // Twice the band's height: what leans stands out from its line.
-  const double half = std::abs(normal.x()) * (0.5 * (outline.front + outline.rear) + reach) +
-                      std::abs(normal.y()) * (outline.halfWidth + reach) +
-                      std::abs(normal.z()) * 2.0 * query.lean();
-  return across > half + 1e-9;
+// The number of the plane that a wall lies in.
+std::size_t NearbyWalls::sheetOf(const Wall& wall) {
+  const double offset = wall.normal.dot(wall.corners[0]);
+  const auto same = std::find_if(sheets_.begin(), sheets_.end(), [&](const Sheet& sheet) {
+    return sheet.normal == wall.normal && std::abs(sheet.offset - offset) <= sameOffset;
+  });
+  if (same != sheets_.end()) return static_cast<std::size_t>(same - sheets_.begin());
+  sheets_.push_back({.normal = wall.normal, .offset = offset, .isBeyond = false});
+  return sheets_.size() - 1;
 }
 
-void NearbyWalls::collect(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
-                          const VehicleState& state, double reach,
+// Finds the planes that have all of a rectangle, over the band, on one side.
+void NearbyWalls::lookAtSheets(const WallQuery& query, const VehicleState& state,
+                               const PlanRectangle& around) {
+  const Eigen::Vector3d middle(around.middle.x(), around.middle.y(), query.middleHeight());
+  const Eigen::Vector3d place = state.massCentre + state.axes * middle;
+  for (Sheet& sheet : sheets_) {
+    const Eigen::Vector3d normal = state.axes.transpose() * sheet.normal;
+    // Twice the band's height: what leans stands out from its line.
+    const double half = std::abs(normal.x()) * around.half.x() +
+                        std::abs(normal.y()) * around.half.y() +
+                        std::abs(normal.z()) * 2.0 * query.lean();
+    sheet.isBeyond = std::abs(sheet.offset - sheet.normal.dot(place)) > half + 2.0 * sameOffset;
+  }
+}
+
+// Whether a wall may be in the rectangle whose planes were looked at last.
+bool NearbyWalls::mayMeet(const Near& near, const VehicleState& state,
+                          const PlanRectangle& around) const {
+  if (sheets_[near.sheet].isBeyond) return false;
+  const Eigen::Vector3d away = near.centre - state.massCentre;
+  const double x = state.axes.col(0).dot(away) - around.middle.x();
+  if (std::abs(x) > around.half.x() + near.radius) return false;
+  const double y = state.axes.col(1).dot(away) - around.middle.y();
+  return std::abs(y) <= around.half.y() + near.radius;
+}
+
+bool NearbyWalls::anyMayMeet(const WallQuery& query, const VehicleState& state,
+                             const PlanRectangle& around) {
+  lookAtSheets(query, state, around);
+  return std::any_of(walls_.begin(), walls_.end(),
+                     [&](const Near& near) { return mayMeet(near, state, around); });
+}
+
+bool NearbyWalls::anyWithin(const WallQuery& query, const VehicleState& state, double reach) {
+  const PlanRectangle around = query.around(reach);
+  lookAtSheets(query, state, around);
+  const auto isWithin = [&](const Near& near) {
+    return mayMeet(near, state, around) &&
+           query.cut(*near.of.barrier, near.of.wall, near.wall, state, reach).has_value();
+  };
+  if (lastWithin_ < walls_.size() && isWithin(walls_[lastWithin_])) return true;
+  const auto found = std::find_if(walls_.begin(), walls_.end(), isWithin);
+  lastWithin_ = static_cast<std::size_t>(found - walls_.begin());
+  return found != walls_.end();
+}
+
+bool NearbyWalls::collect(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
+                          const VehicleState& state, const Question& question,
                           std::vector<WallSegment>& segments) {
+  const double reach = question.reach;
   if (!covers(query, state, reach)) list(query, barriers, state, reach);
-  const Outline& outline = query.outline();
-  const Eigen::Vector3d forward = state.axes.col(0);
-  const Eigen::Vector3d left = state.axes.col(1);
+  if (!question.evenIfNoneIsTouched && !anyMayMeet(query, state, question.swept)) {
+    return anyWithin(query, state, reach);
+  }
+  const PlanRectangle around = query.around(reach);
+  lookAtSheets(query, state, around);
   for (std::size_t i = 0; i < walls_.size(); ++i) {
     const Near& near = walls_[i];
-    const Eigen::Vector3d away = near.centre - state.massCentre;
-    const double x = forward.dot(away);
-    const double most = near.radius + reach;
-    if (x > outline.front + most || -x > outline.rear + most) continue;
-    if (std::abs(left.dot(away)) > outline.halfWidth + most) continue;
-    if (isBeyondPlane(query, state, near, reach)) continue;
+    if (!mayMeet(near, state, around)) continue;
     if (auto segment = query.cut(*near.of.barrier, near.of.wall, near.wall, state, reach)) {
       segment->id = static_cast<int>(i);
       segments.push_back(*segment);
     }
   }
+  return !segments.empty();
 }
 
 }  // namespace bumper

@@ -21,12 +21,24 @@ struct BarrierWall {
 /// the vehicle may reach out of it.
 class NearbyWalls {
  public:
-  NearbyWalls() { walls_.reserve(32); }
+  NearbyWalls() {
+    walls_.reserve(32);
+    sheets_.reserve(32);
+  }
 
-  /// All pieces of walls that a vehicle in that state may come at within its reach, m, in the order
-  /// of barriers and walls. A piece's id is its wall's number here.
-  void collect(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
-               const VehicleState& state, double reach, std::vector<WallSegment>& segments);
+  /// What is asked of the walls around a vehicle.
+  struct Question {
+    double reach = 0.0;   ///< how far the outline may come in the step, whatever it hits, m
+    PlanRectangle swept;  ///< what it passes over if it hits nothing
+    bool evenIfNoneIsTouched = false;
+  };
+
+  /// All pieces of walls within the reach of a vehicle in that state, in the order of barriers and
+  /// walls; none if no wall can be touched in the step, unless they are wanted even then. A piece's
+  /// id is its wall's number here. Returns whether there is any piece within the reach.
+  bool collect(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
+               const VehicleState& state, const Question& question,
+               std::vector<WallSegment>& segments);
 
   /// The wall with that number, until the next collect().
   [[nodiscard]] BarrierWall at(int number) const {
@@ -42,12 +54,24 @@ class NearbyWalls {
     Wall wall;               // with a normal of zero for what is no triangle
     Eigen::Vector3d centre;  // of a ball around the wall
     double radius;
-    double offset;  // of its plane along the normal
+    std::size_t sheet;
+  };
+
+  // A plane in which walls lie.
+  struct Sheet {
+    Eigen::Vector3d normal;
+    double offset;  // along the normal
+    bool isBeyond;  // no wall in it meets the rectangle that was asked for last
   };
 
   [[nodiscard]] bool covers(const WallQuery& query, const VehicleState& state, double reach) const;
-  [[nodiscard]] static bool isBeyondPlane(const WallQuery& query, const VehicleState& state,
-                                          const Near& near, double reach);
+  void lookAtSheets(const WallQuery& query, const VehicleState& state, const PlanRectangle& around);
+  [[nodiscard]] bool mayMeet(const Near& near, const VehicleState& state,
+                             const PlanRectangle& around) const;
+  [[nodiscard]] bool anyMayMeet(const WallQuery& query, const VehicleState& state,
+                                const PlanRectangle& around);
+  [[nodiscard]] bool anyWithin(const WallQuery& query, const VehicleState& state, double reach);
+  [[nodiscard]] std::size_t sheetOf(const Wall& wall);
   void list(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
             const VehicleState& state, double reach);
 
@@ -56,6 +80,8 @@ class NearbyWalls {
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  // its axes,
   WallQuery::Margins margins_;                          // and how far it reaches beyond the outline
   std::vector<Near> walls_;
+  std::vector<Sheet> sheets_;
+  std::size_t lastWithin_ = 0;  // a wall that was within reach, to be asked first
 };
 
 }  // namespace bumper

@@ -251,7 +251,7 @@ bool Responder::claims(dGeomID a, dGeomID b) const {
   const OwnedPair pair = implementation_->pairOf(a, b);
   // A mesh that holds ground too is sorted out contact by contact.
   if (!pair || !pair.barrier->hasWallsOnly()) return false;
-  return pair.vehicle->query.allInBand(pair.vehicle->bodies.read(), pair.barrier->highestFoot(),
+  return pair.vehicle->query.allInBand(pair.vehicle->bodies.readPose(), pair.barrier->highestFoot(),
                                        pair.barrier->lowestTop());
 }
 
@@ -260,7 +260,7 @@ int Responder::keepUnclaimed(dGeomID a, dGeomID b, dContact* contacts, int count
   if (!pair) return count;
   const Barrier& barrier = *pair.barrier;
   const bool isMesh = dGeomGetClass(barrier.geom()) == dTriMeshClass;
-  const VehicleState state = pair.vehicle->bodies.read();
+  const VehiclePose state = pair.vehicle->bodies.readPose();
   const auto isOurs = [&](const dContact& contact) {
     const int triangle =
         contact.geom.g1 == barrier.geom() ? contact.geom.side1 : contact.geom.side2;

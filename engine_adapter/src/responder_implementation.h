@@ -89,7 +89,7 @@ struct Responder::Implementation {
 
   void reconsiderLastStep();
   void stepVehicle(Vehicle& vehicle, double h);
-  void collectWalls(Vehicle& vehicle, const VehicleState& state, const PlanarMotion& motion,
+  bool collectWalls(Vehicle& vehicle, const VehicleState& state, const PlanarMotion& motion,
                     double h);
   void noticeGravity();
   void leaveOutPassages(Vehicle& vehicle);

@@ -229,12 +229,20 @@ void Responder::Implementation::noticeGravity() {
   forgetSurroundings();
 }
 
-void Responder::Implementation::collectWalls(Vehicle& vehicle, const VehicleState& state,
+// Whether walls are within reach; those that matter are in `segments`.
+bool Responder::Implementation::collectWalls(Vehicle& vehicle, const VehicleState& state,
                                              const PlanarMotion& motion, double h) {
   const double reach = CollisionStep::reach(withMassOf(vehicle.parameters, state), motion,
                                             longestPenetrationTime, h);
   if (!options.skipping) vehicle.nearby.forget();
-  vehicle.nearby.collect(vehicle.query, barriers, state, reach, segments);
+  const VehicleMemory& memory = vehicle.memory;
+  return vehicle.nearby.collect(
+      vehicle.query, barriers, state,
+      {.reach = reach,
+       .swept = vehicle.query.swept(motion, h),
+       .evenIfNoneIsTouched =
+           !options.skipping || !memory.contacts.empty() || !memory.passages.empty()},
+      segments);
 }
 
 void Responder::Implementation::answerCuts(Vehicle& vehicle, const VehicleState& state,
@@ -315,6 +323,7 @@ void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
   const bool exact = options.contactSource == ContactSource::exact_cut;
   VehicleState state = known;
   PlanarMotion motion;
+  bool near = false;
   segments.clear();
   const bool remembersWalls = delivering || memory.expectation.step > 0.0 ||
                               !memory.contacts.empty() || !memory.passages.empty();
@@ -325,12 +334,11 @@ void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
   if (upright) {
     foresee(memory.expectation, state);
     motion = motionOf(state, memory.pulse, options.response.method, h);
-    if (exact) collectWalls(vehicle, state, motion, h);
+    near = !exact || collectWalls(vehicle, state, motion, h);
   } else {
     vehicle.issues |= step_issue::tilted;
   }
   if (!memory.contacts.empty()) endContacts(vehicle);
-  const bool near = upright && (!exact || !segments.empty());
   if (!near && !delivering) {
     memory.expectation = {};
     memory.passages.clear();

@@ -31,38 +31,49 @@ bool VehicleState::isFinite() const {
          std::isfinite(yawRate) && acceleration.allFinite() && std::isfinite(yawAcceleration);
 }
 
+VehiclePose VehicleBodies::readPose() const {
+  VehiclePose pose;
+  pose.axes = toMatrix(dBodyGetRotation(chassis()));
+  pose.massCentre = toVector(dBodyGetPosition(chassis()));
+  if (bodies_.size() == 1) return pose;
+  double mass = 0.0;
+  pose.massCentre.setZero();
+  for (dBodyID body : bodies_) {
+    const double itsMass = massOf(body);
+    mass += itsMass;
+    pose.massCentre += itsMass * toVector(dBodyGetPosition(body));
+  }
+  pose.massCentre /= mass;
+  return pose;
+}
+
 VehicleState VehicleBodies::read() const {
   VehicleState state;
-  state.axes = toMatrix(dBodyGetRotation(chassis()));
+  static_cast<VehiclePose&>(state) = readPose();
   const Eigen::Vector3d up = state.up();
   state.yawRate = toVector(dBodyGetAngularVel(chassis())).dot(up);
 
   dVector3 gravity;
   dWorldGetGravity(dBodyGetWorld(chassis()), gravity);
-  state.massCentre.setZero();
   state.velocity.setZero();
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
-  for (dBodyID body : bodies_) {
-    const double mass = massOf(body);
-    state.mass += mass;
-    state.massCentre += mass * toVector(dBodyGetPosition(body));
-    state.velocity += mass * toVector(dBodyGetLinearVel(body));
-    force += toVector(dBodyGetForce(body));
-    if (dBodyGetGravityMode(body) != 0) force += mass * toVector(gravity);
-  }
-  state.massCentre /= state.mass;
-  state.velocity /= state.mass;
-  state.acceleration = force / state.mass;
-
   double moment = 0.0;
   for (dBodyID body : bodies_) {
     dMass mass;
     dBodyGetMass(body, &mass);
+    const Eigen::Vector3d itsForce = toVector(dBodyGetForce(body));
+    state.mass += mass.mass;
+    state.velocity += mass.mass * toVector(dBodyGetLinearVel(body));
+    force += itsForce;
+    if (dBodyGetGravityMode(body) != 0) force += mass.mass * toVector(gravity);
+
     const Eigen::Vector3d arm = toVector(dBodyGetPosition(body)) - state.massCentre;
     const Eigen::Vector3d axis = toMatrix(dBodyGetRotation(body)).transpose() * up;
     state.yawInertia += axis.dot(toMatrix(mass.I) * axis) + mass.mass * up.cross(arm).squaredNorm();
-    moment += up.dot(toVector(dBodyGetTorque(body)) + arm.cross(toVector(dBodyGetForce(body))));
+    moment += up.dot(toVector(dBodyGetTorque(body)) + arm.cross(itsForce));
   }
+  state.velocity /= state.mass;
+  state.acceleration = force / state.mass;
   state.yawAcceleration = moment / state.yawInertia;
   return state;
 }

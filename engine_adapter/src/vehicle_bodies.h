@@ -12,12 +12,18 @@
 
 namespace bumper {
 
-/// A vehicle's bodies at one instant, as one rigid body.
-struct VehicleState {
+/// Where a vehicle is.
+struct VehiclePose {
   Eigen::Vector3d massCentre;  ///< world
   Eigen::Matrix3d axes;        ///< columns: forward, left, up in the world
-  Eigen::Vector3d velocity;    ///< of the mass centre, world
-  double yawRate = 0.0;        ///< of the chassis about its own z axis
+
+  [[nodiscard]] Eigen::Vector3d up() const { return axes.col(2); }
+};
+
+/// A vehicle's bodies at one instant, as one rigid body.
+struct VehicleState : VehiclePose {
+  Eigen::Vector3d velocity;  ///< of the mass centre, world
+  double yawRate = 0.0;      ///< of the chassis about its own z axis
   double mass = 0.0;
   double yawInertia = 0.0;  ///< about the chassis' z axis through the mass centre
   /// What the forces already added to the bodies, and gravity, will change within the step.
@@ -25,7 +31,6 @@ struct VehicleState {
   double yawAcceleration = 0.0;
 
   [[nodiscard]] bool isFinite() const;
-  [[nodiscard]] Eigen::Vector3d up() const { return axes.col(2); }
   [[nodiscard]] Eigen::Vector3d toWorld(const Vector2& inYawPlane) const {
     return axes.leftCols<2>() * inYawPlane;
   }
@@ -40,6 +45,7 @@ class VehicleBodies {
   [[nodiscard]] dBodyID chassis() const { return bodies_.front(); }
   [[nodiscard]] std::span<const dBodyID> all() const { return bodies_; }
   [[nodiscard]] VehicleState read() const;
+  [[nodiscard]] VehiclePose readPose() const;
   /// Whether ODE has put all of them to sleep.
   [[nodiscard]] bool areAsleep() const;
 

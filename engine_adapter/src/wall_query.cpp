@@ -128,11 +128,24 @@ std::optional<WallSegment> WallQuery::cut(const Barrier& barrier, int number, co
   return segment;
 }
 
+PlanRectangle WallQuery::around(double reach) const {
+  return {.middle = {0.5 * (outline_.front - outline_.rear), 0.0},
+          .half = {0.5 * (outline_.front + outline_.rear) + reach, outline_.halfWidth + reach}};
+}
+
+PlanRectangle WallQuery::swept(const PlanarMotion& motion, double h) const {
+  // A little more than rounding and what counts as a touch.
+  constexpr double slack = 1e-6;  // m
+  const Vector2 way = h * motion.velocity;
+  PlanRectangle all = around(h * std::abs(motion.yawRate) * outline_.radius() + slack);
+  all.middle += 0.5 * way;
+  all.half += 0.5 * way.cwiseAbs();
+  return all;
+}
+
 // Whether a segment meets the outline enlarged on every side.
 bool WallQuery::isNear(const WallSegment& wall, double reach) const {
-  const double more = reach + wall.radius;
-  const Vector2 middle(0.5 * (outline_.front - outline_.rear), 0.0);
-  const Vector2 half(0.5 * (outline_.front + outline_.rear) + more, outline_.halfWidth + more);
+  const auto [middle, half] = around(reach + wall.radius);
   const Vector2 centre = 0.5 * (wall.start + wall.end) - middle;
   const Vector2 arm = 0.5 * (wall.end - wall.start);
   if ((centre.cwiseAbs() - arm.cwiseAbs() - half).maxCoeff() > 0.0) return false;
@@ -170,7 +183,7 @@ std::optional<Impact> WallQuery::meanOfContacts(const BarrierMesh& mesh,
   return impact;
 }
 
-bool WallQuery::inBand(const VehicleState& state, const Eigen::Vector3d& place, double foot,
+bool WallQuery::inBand(const VehiclePose& state, const Eigen::Vector3d& place, double foot,
                        double top) const {
   const auto height = [&](double z) {
     return state.up().dot(Eigen::Vector3d(place.x(), place.y(), z) - state.massCentre);
@@ -178,11 +191,11 @@ bool WallQuery::inBand(const VehicleState& state, const Eigen::Vector3d& place, 
   return height(top) >= low_ && height(foot) <= high_;
 }
 
-bool WallQuery::isAboveBottom(const VehicleState& state, const Eigen::Vector3d& place) const {
+bool WallQuery::isAboveBottom(const VehiclePose& state, const Eigen::Vector3d& place) const {
   return state.up().dot(place - state.massCentre) >= low_;
 }
 
-bool WallQuery::allInBand(const VehicleState& state, double highestFoot, double lowestTop) const {
+bool WallQuery::allInBand(const VehiclePose& state, double highestFoot, double lowestTop) const {
   const Eigen::Vector3d up = state.up();
   const double slack = radius_ * up.head<2>().norm();
   const double footHeight = (highestFoot - state.massCentre.z()) * up.z() + slack;

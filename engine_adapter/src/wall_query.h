@@ -12,6 +12,12 @@
 
 namespace bumper {
 
+/// A rectangle in a vehicle's yaw plane and axes, m.
+struct PlanRectangle {
+  Vector2 middle = Vector2::Zero();
+  Vector2 half = Vector2::Zero();
+};
+
 /// Asks a barrier what is near one vehicle's outline. Works in the vehicle's own frame: axes
 /// forward, left, up; origin at the mass centre.
 class WallQuery {
@@ -44,13 +50,16 @@ class WallQuery {
                                                const VehicleState& state, double reach) const;
 
   [[nodiscard]] const Outline& outline() const { return outline_; }
+  /// The outline enlarged on every side, m.
+  [[nodiscard]] PlanRectangle around(double reach) const;
+  /// What the outline passes over in a step of `h` seconds if nothing stops it. `motion` is in the
+  /// vehicle's axes at the step's start.
+  [[nodiscard]] PlanRectangle swept(const PlanarMotion& motion, double h) const;
   /// Of a sphere around the mass centre that holds the outline over the band, m.
   [[nodiscard]] double radius() const { return radius_; }
 
-  /// Of the outline over the band, in the vehicle's frame, m.
-  [[nodiscard]] Eigen::Vector3d middle() const {
-    return {0.5 * (outline_.front - outline_.rear), 0.0, 0.5 * (low_ + high_)};
-  }
+  /// The middle of the band, m above the mass centre.
+  [[nodiscard]] double middleHeight() const { return 0.5 * (low_ + high_); }
   /// How far a wall that is no flatter than 45° goes beyond its line within the band, m.
   [[nodiscard]] double lean() const { return high_ - low_; }
 
@@ -59,13 +68,13 @@ class WallQuery {
 
   /// Whether a wall that stands between the heights foot and top at a place of the world reaches
   /// into the band.
-  [[nodiscard]] bool inBand(const VehicleState& state, const Eigen::Vector3d& place, double foot,
+  [[nodiscard]] bool inBand(const VehiclePose& state, const Eigen::Vector3d& place, double foot,
                             double top) const;
   /// Whether a place of the world lies above the band's lower limit.
-  [[nodiscard]] bool isAboveBottom(const VehicleState& state, const Eigen::Vector3d& place) const;
+  [[nodiscard]] bool isAboveBottom(const VehiclePose& state, const Eigen::Vector3d& place) const;
   /// The same as inBand() for every wall within the outline's reach that has its foot no higher and
   /// its top no lower than these; false if in doubt.
-  [[nodiscard]] bool allInBand(const VehicleState& state, double highestFoot,
+  [[nodiscard]] bool allInBand(const VehiclePose& state, double highestFoot,
                                double lowestTop) const;
 
  private:

@@ -161,7 +161,7 @@ std::optional<Overlap> touchPost(const Outline& outline, const Placement& at,
 
 }  // namespace
 
-double Outline::radius() const { return std::hypot(std::max(front, rear), halfWidth); }
+double Outline::radius() const { return Vector2(std::max(front, rear), halfWidth).norm(); }
 
 std::array<Vector2, 4> Outline::corners() const {
   return {Vector2(front, halfWidth), Vector2(-rear, halfWidth), Vector2(-rear, -halfWidth),

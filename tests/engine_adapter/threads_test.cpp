@@ -19,9 +19,33 @@ namespace {
 
 constexpr double h = 0.005;
 
+// Worlds share ODE's default job queue, which is not thread safe: on several threads each needs one
+// of its own.
+class OwnJobs {
+ public:
+  explicit OwnJobs(dWorldID world)
+      : world_(world), jobs_(dThreadingAllocateSelfThreadedImplementation()) {
+    dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(jobs_),
+                                         jobs_);
+  }
+  ~OwnJobs() {
+    dWorldSetStepThreadingImplementation(world_, nullptr, nullptr);
+    dThreadingFreeImplementation(jobs_);
+  }
+  OwnJobs(const OwnJobs&) = delete;
+  OwnJobs& operator=(const OwnJobs&) = delete;
+  OwnJobs(OwnJobs&&) = delete;
+  OwnJobs& operator=(OwnJobs&&) = delete;
+
+ private:
+  dWorldID world_;
+  dThreadingImplementationID jobs_;
+};
+
 // A car that drives into the L-shaped wall at an angle; where it is in each step.
 std::vector<std::array<double, 3>> drive(double yaw) {
   OdeWorld ode;
+  const OwnJobs jobs(ode.world);
   Responder responder(ode.world);
   responder.addBarrier(testRail());
   BoxCar car(ode.world);

@@ -76,7 +76,7 @@ std::optional<Overlap> overlapOf(const Scene& s) {
   return findOverlap(s.outline, {s.centre, s.yaw}, s.wall);
 }
 std::optional<ExactOverlap> exactOverlapOf(const Scene& s) {
-  return exactOverlap(s.outline, {s.centre, s.yaw}, s.wall);
+  return exactOverlap(s.outline, s.centre, s.yaw, s.wall);
 }
 
 TEST(Outline, CornersAreTheRectangleOfTheVehicle) {
@@ -153,7 +153,7 @@ TEST_P(ContactPointOf, ContactIsTheMiddleOfTheWallInside) {
     if (!exact || !overlap || exact->lengthInside < graze || exact->depth < graze) continue;
     for (const double penetration :
          {overlap->depth, 0.001, random.uniform(0.001, 0.1), random.uniform(0.1, 0.6)}) {
-      const std::optional<Plane> arm = exactArm(s.outline, {s.centre, s.yaw}, *exact, penetration);
+      const std::optional<Plane> arm = exactArm(s.outline, s.centre, s.yaw, *exact, penetration);
       if (!arm) continue;
       ++compared;
       const ContactPoint contact =

@@ -237,7 +237,8 @@ TEST_P(Sweep, FindsTheFirstTouchAndInventsNone) {
     if (separationAt(s.outline(), Flight(s.motion), s.wall, 0.0L).gap < clear) continue;
     ++i;
     const FirstTouch touch = firstTouch(s.outline(), s.motion, s.wall, 0.0L, s.step, Start::apart);
-    const double time = Sweep(s.outline(), s.motion).timeOfTouch(s.wall, nullptr, 0.0, s.step);
+    const double time =
+        bumper::Sweep(s.outline(), s.motion).timeOfTouch(s.wall, nullptr, 0.0, s.step);
     compare(s, touch, time, 0.0, s.step, tally);
   }
   tally.report();
@@ -286,8 +287,9 @@ TEST_P(Sweep, FindsTheNextTouchAfterAnImpact) {
     ++i;
     const FirstTouch next =
         firstTouch(s.outline(), s.motion, s.wall, time, s.step, Start::touching);
-    compare(s, next, Sweep(s.outline(), s.motion).timeOfTouch(s.wall, &*overlap, time, s.step),
-            time, s.step, tally);
+    compare(s, next,
+            bumper::Sweep(s.outline(), s.motion).timeOfTouch(s.wall, &*overlap, time, s.step), time,
+            s.step, tally);
   }
   tally.report();
   EXPECT_GT(tally.touches, cases / 20);
@@ -306,7 +308,8 @@ TEST(SolidWall, IsHitFromTheFrontOnly) {
     if (separationAt(s.outline(), Flight(s.motion), s.wall, 0.0L).gap < clear) continue;
     ++i;
     const FirstTouch touch = firstTouch(s.outline(), s.motion, s.wall, 0.0L, s.step, Start::apart);
-    const double time = Sweep(s.outline(), s.motion).timeOfTouch(s.wall, nullptr, 0.0, s.step);
+    const double time =
+        bumper::Sweep(s.outline(), s.motion).timeOfTouch(s.wall, nullptr, 0.0, s.step);
     const Real facing = touch.at.normal.dot(s.wall.normal.cast<Real>());
     if (touch.kind == FirstTouch::Kind::touch && facing < -aslant) {
       // It goes in from behind. That is no touch, nor does anything of the sort come before.
@@ -367,7 +370,8 @@ struct Placed {
   }
   [[nodiscard]] double time(const WallSegment& wall, double until) const {
     const std::optional<Overlap> overlap = touch(wall);
-    return Sweep(outline, motion).timeOfTouch(wall, overlap ? &*overlap : nullptr, 0.0, until);
+    return bumper::Sweep(outline, motion)
+        .timeOfTouch(wall, overlap ? &*overlap : nullptr, 0.0, until);
   }
 };
 
@@ -479,7 +483,8 @@ TEST(Degenerate, AWallWithoutLengthIsMetAsAPoint) {
     if (separationAt(s.outline(), Flight(s.motion), s.wall, 0.0L).gap < clear) continue;
     ++i;
     const FirstTouch touch = firstTouch(s.outline(), s.motion, s.wall, 0.0L, s.step, Start::apart);
-    compare(s, touch, Sweep(s.outline(), s.motion).timeOfTouch(s.wall, nullptr, 0.0, s.step), 0.0,
+    compare(s, touch,
+            bumper::Sweep(s.outline(), s.motion).timeOfTouch(s.wall, nullptr, 0.0, s.step), 0.0,
             s.step, tally);
   }
   tally.report();
@@ -500,7 +505,8 @@ TEST(Degenerate, AMillimetreIsNotMissedAtTopSpeed) {
     if (separationAt(s.outline(), Flight(s.motion), s.wall, 0.0L).gap < clear) continue;
     ++i;
     const FirstTouch touch = firstTouch(s.outline(), s.motion, s.wall, 0.0L, s.step, Start::apart);
-    compare(s, touch, Sweep(s.outline(), s.motion).timeOfTouch(s.wall, nullptr, 0.0, s.step), 0.0,
+    compare(s, touch,
+            bumper::Sweep(s.outline(), s.motion).timeOfTouch(s.wall, nullptr, 0.0, s.step), 0.0,
             s.step, tally);
   }
   tally.report();
@@ -533,7 +539,8 @@ TEST_P(Sweep, TheFrameDoesNotMatter) {
     s.wall.solid = random.chance(0.3) && !s.wall.isPost();
     if (separationAt(s.outline(), Flight(s.motion), s.wall, 0.0L).gap < clear) continue;
     const auto time = [](const Scene& scene) {
-      return Sweep(scene.outline(), scene.motion).timeOfTouch(scene.wall, nullptr, 0.0, scene.step);
+      return bumper::Sweep(scene.outline(), scene.motion)
+          .timeOfTouch(scene.wall, nullptr, 0.0, scene.step);
     };
     const double angle = random.uniform(-pi, pi);
     const double expected = time(s), mirror = time(mirrored(s)), turn = time(turned(s, angle));
