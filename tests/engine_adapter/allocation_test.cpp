@@ -24,9 +24,9 @@ thread_local int caught = 0;
 
 extern "C" {
 // The C library's own, under the names that it keeps for this purpose.
-void* __libc_malloc(std::size_t size);                     // NOLINT(bugprone-reserved-identifier)
-void* __libc_calloc(std::size_t count, std::size_t size);  // NOLINT(bugprone-reserved-identifier)
-void* __libc_realloc(void* memory, std::size_t size);      // NOLINT(bugprone-reserved-identifier)
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* memory, std::size_t size);
 
 void* malloc(std::size_t size) {
   if (guarded) ++caught;

@@ -62,11 +62,14 @@ TEST(RecordingHour, isWrittenAndOpenedWithBoundedMemory) {
     ASSERT_EQ(vehicle.poses.size(), 2U);
     EXPECT_NEAR(poseAt(vehicle, 2718.2818)->position.x(), 27182.818, 1e-6);
   }
-  EXPECT_LT(writingMemory, 2 * megabyte);
-  EXPECT_LT(memory, 8 * megabyte);
   EXPECT_TRUE(cut.isCut());
   EXPECT_NEAR(cut.lastTime().value(), 2400.0, 20.0);
   EXPECT_NEAR(static_cast<double>(impactsLeft), cut.lastTime().value(), 2.0);
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer's allocator keeps what was freed";
+#endif
+  EXPECT_LT(writingMemory, 2 * megabyte);
+  EXPECT_LT(memory, 8 * megabyte);
 }
 
 }  // namespace

@@ -8,9 +8,13 @@ namespace {
 
 std::atomic<std::size_t> count = 0;
 
-void* counted(std::size_t size) {
+void* countedOrNull(std::size_t size) noexcept {
   count.fetch_add(1, std::memory_order_relaxed);
-  void* memory = std::malloc(size == 0 ? 1 : size);
+  return std::malloc(size == 0 ? 1 : size);
+}
+
+void* counted(std::size_t size) {
+  void* memory = countedOrNull(size);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
@@ -25,6 +29,13 @@ std::size_t allocationCount() { return count.load(std::memory_order_relaxed); }
 
 void* operator new(std::size_t size) { return counted(size); }
 void* operator new[](std::size_t size) { return counted(size); }
+// std::stable_sort() asks this one; another's would not be freed by ours.
+void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
+  return countedOrNull(size);
+}
+void* operator new[](std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
+  return countedOrNull(size);
+}
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete[](void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
