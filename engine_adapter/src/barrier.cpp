@@ -44,15 +44,15 @@ Scene sceneOfBox(dGeomID box, const std::string& name) {
 
 Barrier::Barrier(BarrierId id, const Scene& scene, const BarrierOptions& options, std::string name,
                  BarrierMesh::Query query, const ResponseSettings& usual)
-    : id_(id), name_(std::move(name)) {
+    : id_(id), name_(std::move(name)), options_(options), hasScene_(true) {
   mesh_.emplace(scene, options, name_, query);
   geom_ = mesh_->geom();
-  keepSettings(options, usual);
+  keepSettings(usual);
 }
 
 Barrier::Barrier(BarrierId id, dGeomID geom, const BarrierOptions& options, std::string name,
                  BarrierMesh::Query query, const ResponseSettings& usual)
-    : id_(id), name_(std::move(name)), geom_(geom) {
+    : id_(id), name_(std::move(name)), options_(options), hasScene_(false), geom_(geom) {
   switch (dGeomGetClass(geom)) {
     case dTriMeshClass:
       mesh_.emplace(geom, options, name_, query);
@@ -69,28 +69,28 @@ Barrier::Barrier(BarrierId id, dGeomID geom, const BarrierOptions& options, std:
                   ": a trimesh, box, plane or cylinder can be a barrier as it is; of another the "
                   "shape must be given as a scene");
   }
-  keepSettings(options, usual);
+  keepSettings(usual);
 }
 
 Barrier::Barrier(BarrierId id, dGeomID geom, const Scene& shape, const BarrierOptions& options,
                  std::string name, BarrierMesh::Query query, const ResponseSettings& usual)
-    : id_(id), name_(std::move(name)), geom_(geom) {
+    : id_(id), name_(std::move(name)), options_(options), hasScene_(true), geom_(geom) {
   mesh_.emplace(shape, geom, options, name_, query);
-  keepSettings(options, usual);
+  keepSettings(usual);
 }
 
-void Barrier::keepSettings(const BarrierOptions& options, const ResponseSettings& usual) {
+void Barrier::keepSettings(const ResponseSettings& usual) {
   usual_ = &usual;
   if (mesh_) report_ = mesh_->report();
   if (primitive_)
     report_ = {.walls = 1, .lowestFoot = primitive_->foot(), .highestTop = primitive_->top()};
   // Number 0, then one for each material that has its own.
-  own_.push_back(options.response.value_or(usual));
-  if (options.response) usual_ = nullptr;
+  own_.push_back(options_.response.value_or(usual));
+  if (options_.response) usual_ = nullptr;
   const std::vector<std::string> materials =
       mesh_ ? mesh_->materials() : std::vector<std::string>{""};
   settingsOfMesh_.assign(materials.size(), 0);
-  for (const auto& [material, settings] : options.materials) {
+  for (const auto& [material, settings] : options_.materials) {
     const int number = static_cast<int>(own_.size());
     bool known = false;
     for (std::size_t i = 0; i < materials.size(); ++i) {

@@ -27,7 +27,10 @@ class Barrier {
 
   [[nodiscard]] BarrierId id() const { return id_; }
   [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const BarrierOptions& options() const { return options_; }
   [[nodiscard]] dGeomID geom() const { return geom_; }
+  /// Whether a scene says where its walls are, not the geom.
+  [[nodiscard]] bool hasScene() const { return hasScene_; }
   [[nodiscard]] const WallReport& report() const { return report_; }
 
   /// Null for a plane or cylinder.
@@ -61,10 +64,12 @@ class Barrier {
   [[nodiscard]] double lowestTop() const;
 
  private:
-  void keepSettings(const BarrierOptions& options, const ResponseSettings& usual);
+  void keepSettings(const ResponseSettings& usual);
 
   BarrierId id_;
   std::string name_;
+  BarrierOptions options_;
+  bool hasScene_;
   dGeomID geom_ = nullptr;
   WallReport report_;
   std::optional<BarrierMesh> mesh_;

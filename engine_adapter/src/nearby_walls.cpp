@@ -14,8 +14,9 @@ constexpr double allAround = 1.0;
 constexpr double timeAhead = 0.2;
 constexpr double mostAhead = 6.0;
 
-// Walls lie in one plane within this, m.
-constexpr double sameOffset = 1e-9;
+// Walls lie in one plane within these.
+constexpr double sameOffset = 1e-9;    // m
+constexpr double sameNormal2 = 1e-26;  // of the difference's square
 
 // What is left of a wall that leans lies in the rectangle around its part in the band.
 constexpr double aroundCorner = 1.4143;
@@ -80,9 +81,10 @@ void NearbyWalls::list(WallQuery& query, const std::vector<std::unique_ptr<Barri
 
 // The number of the plane that a wall lies in.
 std::size_t NearbyWalls::sheetOf(const Wall& wall) {
-  const double offset = wall.normal.dot(wall.corners[0]);
+  const double offset = wall.normal.dot(wall.corners[0] - centre_);
   const auto same = std::find_if(sheets_.begin(), sheets_.end(), [&](const Sheet& sheet) {
-    return sheet.normal == wall.normal && std::abs(sheet.offset - offset) <= sameOffset;
+    return (sheet.normal - wall.normal).squaredNorm() <= sameNormal2 &&
+           std::abs(sheet.offset - offset) <= sameOffset;
   });
   if (same != sheets_.end()) return static_cast<std::size_t>(same - sheets_.begin());
   sheets_.push_back({.normal = wall.normal, .offset = offset, .isBeyond = false});
@@ -93,7 +95,7 @@ std::size_t NearbyWalls::sheetOf(const Wall& wall) {
 void NearbyWalls::lookAtSheets(const WallQuery& query, const VehicleState& state,
                                const PlanRectangle& around) {
   const Eigen::Vector3d middle(around.middle.x(), around.middle.y(), query.middleHeight());
-  const Eigen::Vector3d place = state.massCentre + state.axes * middle;
+  const Eigen::Vector3d place = state.massCentre - centre_ + state.axes * middle;
   for (Sheet& sheet : sheets_) {
     const Eigen::Vector3d normal = state.axes.transpose() * sheet.normal;
     // Twice the band's height: what leans stands out from its line.
@@ -123,7 +125,7 @@ bool NearbyWalls::anyMayMeet(const WallQuery& query, const VehicleState& state,
 }
 
 bool NearbyWalls::anyWithin(const WallQuery& query, const VehicleState& state, double reach) {
-  const PlanRectangle around = query.around(reach);
+  const PlanRectangle around = query.outline().enlarged(reach);
   lookAtSheets(query, state, around);
   const auto isWithin = [&](const Near& near) {
     return mayMeet(near, state, around) &&
@@ -143,7 +145,7 @@ bool NearbyWalls::collect(WallQuery& query, const std::vector<std::unique_ptr<Ba
   if (!question.evenIfNoneIsTouched && !anyMayMeet(query, state, question.swept)) {
     return anyWithin(query, state, reach);
   }
-  const PlanRectangle around = query.around(reach);
+  const PlanRectangle around = query.outline().enlarged(reach);
   lookAtSheets(query, state, around);
   for (std::size_t i = 0; i < walls_.size(); ++i) {
     const Near& near = walls_[i];

@@ -60,7 +60,7 @@ class NearbyWalls {
   // A plane in which walls lie.
   struct Sheet {
     Eigen::Vector3d normal;
-    double offset;  // along the normal
+    double offset;  // along the normal, from the region's centre
     bool isBeyond;  // no wall in it meets the rectangle that was asked for last
   };
 

@@ -8,6 +8,9 @@ namespace bumper {
 
 namespace {
 
+// A world step so many times longer than told is none: the vehicle was put further along its way.
+constexpr double mostSteps = 16.0;
+
 PlanarForce over(const PlanarImpulse& impulse, double h) {
   return {.force = impulse.linear / h, .yawMoment = impulse.angular / h};
 }
@@ -37,7 +40,8 @@ LastStep lookBack(const LastDelivery& delivery, dBodyID chassis, double& worldSt
   const double speed2 = velocity.squaredNorm();
   if (speed2 > 0.0) {
     worldStep = way.dot(velocity) / speed2;
-    if (worldStep > 0.0 && (way - worldStep * velocity).norm() <= tolerance) {
+    const bool canBeStep = worldStep > 0.0 && worldStep <= mostSteps * delivery.step;
+    if (canBeStep && (way - worldStep * velocity).norm() <= tolerance) {
       return LastStep::other_size;
     }
   }

@@ -86,6 +86,17 @@ void validateSettings(const ResponseSettings& settings, const ResponderOptions& 
   }
 }
 
+template <typename... Source>
+std::unique_ptr<Barrier> makeBarrier(const Responder::Implementation& responder, BarrierId id,
+                                     const BarrierOptions& options, std::string name,
+                                     const Source&... source) {
+  const bool exact = responder.options.contactSource == ContactSource::exact_cut;
+  return std::make_unique<Barrier>(
+      id, source..., options, std::move(name),
+      exact ? BarrierMesh::Query::list_triangles : BarrierMesh::Query::make_contacts,
+      responder.options.response);
+}
+
 // Builds the barrier whole before anything refers to it.
 template <typename... Source>
 BarrierId add(Responder::Implementation& responder, const BarrierOptions& options, std::string name,
@@ -96,11 +107,7 @@ BarrierId add(Responder::Implementation& responder, const BarrierOptions& option
   }
   const BarrierId id{static_cast<int>(responder.barriers.size())};
   if (name.empty()) name = "barrier " + std::to_string(id.value);
-  const bool exact = responder.options.contactSource == ContactSource::exact_cut;
-  auto barrier = std::make_unique<Barrier>(
-      id, source..., options, std::move(name),
-      exact ? BarrierMesh::Query::list_triangles : BarrierMesh::Query::make_contacts,
-      responder.options.response);
+  auto barrier = makeBarrier(responder, id, options, std::move(name), source...);
   responder.longestPenetrationTime =
       std::max(responder.longestPenetrationTime, barrier->longestPenetrationTime());
   responder.barrierOfGeom.emplace(barrier->geom(), barrier.get());
@@ -109,13 +116,37 @@ BarrierId add(Responder::Implementation& responder, const BarrierOptions& option
   return id;
 }
 
+// The same barrier with other walls.
+template <typename... Source>
+void update(Responder::Implementation& responder, const Barrier& old, const Source&... source) {
+  std::unique_ptr<Barrier> fresh =
+      makeBarrier(responder, old.id(), old.options(), old.name(), source...);
+  for (const std::unique_ptr<Vehicle>& vehicle : responder.vehicles) {
+    if (vehicle == nullptr) continue;
+    for (VehicleMemory* memory : {&vehicle->memory, &vehicle->memoryBefore}) {
+      for (SustainedContact& contact : memory->contacts) {
+        if (contact.barrier == old.id())
+          contact.wall = std::min(contact.wall, fresh->wallCount() - 1);
+      }
+    }
+  }
+  responder.barrierOfGeom.erase(old.geom());
+  responder.barrierOfGeom.emplace(fresh->geom(), fresh.get());
+  responder.barriers[static_cast<std::size_t>(old.id().value)] = std::move(fresh);
+  responder.forgetSurroundings();
+}
+
+void requireStanding(dGeomID geom, const char* call) {
+  if (dGeomGetBody(geom) != nullptr) {
+    throw Error(std::string(call) + ": the geom has a body: a barrier must stand still");
+  }
+}
+
 // Whether a geom of the application's can become a barrier.
 void requireUsable(const Responder::Implementation& responder, dGeomID geom) {
   if (geom == nullptr) throw Error("addBarrier: the geom is null");
   if (dGeomIsSpace(geom) != 0) throw Error("addBarrier: the geom is a space");
-  if (dGeomGetBody(geom) != nullptr) {
-    throw Error("addBarrier: the geom has a body: a barrier must stand still");
-  }
+  requireStanding(geom, "addBarrier");
   if (responder.barrierOfGeom.contains(geom)) {
     throw Error("addBarrier: the geom is a barrier already");
   }
@@ -159,6 +190,30 @@ BarrierId Responder::addBarrier(dGeomID geom, const BarrierOptions& options) {
     throw Error("addBarrier: the trimesh has no data");
   }
   return add(*implementation_, options, options.name, geom);
+}
+
+void Responder::updateBarrier(BarrierId barrier) {
+  const Barrier& old = registered(implementation_->barriers, barrier.value, "barrier");
+  if (old.hasScene()) {
+    throw Error("updateBarrier: the walls of barrier '" + old.name() +
+                "' came from a scene: give the scene as it is now");
+  }
+  requireStanding(old.geom(), "updateBarrier");
+  update(*implementation_, old, old.geom());
+}
+
+void Responder::updateBarrier(BarrierId barrier, const Scene& scene) {
+  const Barrier& old = registered(implementation_->barriers, barrier.value, "barrier");
+  if (!old.hasScene()) {
+    throw Error("updateBarrier: the walls of barrier '" + old.name() +
+                "' are read from its geom: no scene is needed");
+  }
+  if (old.options().geom == nullptr) {
+    update(*implementation_, old, scene);
+    return;
+  }
+  requireStanding(old.options().geom, "updateBarrier");
+  update(*implementation_, old, old.options().geom, scene);
 }
 
 dGeomID Responder::geom(BarrierId barrier) const {

@@ -122,36 +122,22 @@ std::optional<WallSegment> WallQuery::cut(const Barrier& barrier, int number, co
     segment = cutWall(wall, state, low_, high_);
     if (segment) segment->solid = barrier.mesh()->isSolid();
   }
-  if (!segment || !isNear(*segment, reach)) return std::nullopt;
+  if (!segment) return std::nullopt;
+  const PlanRectangle around = outline_.enlarged(reach + segment->radius);
+  if (around.misses(segment->start, segment->end)) return std::nullopt;
   segment->group = barrier.id().value;
   segment->settings = &barrier.settings(barrier.settingsNumberOf(number));
   return segment;
-}
-
-PlanRectangle WallQuery::around(double reach) const {
-  return {.middle = {0.5 * (outline_.front - outline_.rear), 0.0},
-          .half = {0.5 * (outline_.front + outline_.rear) + reach, outline_.halfWidth + reach}};
 }
 
 PlanRectangle WallQuery::swept(const PlanarMotion& motion, double h) const {
   // A little more than rounding and what counts as a touch.
   constexpr double slack = 1e-6;  // m
   const Vector2 way = h * motion.velocity;
-  PlanRectangle all = around(h * std::abs(motion.yawRate) * outline_.radius() + slack);
+  PlanRectangle all = outline_.enlarged(h * std::abs(motion.yawRate) * outline_.radius() + slack);
   all.middle += 0.5 * way;
   all.half += 0.5 * way.cwiseAbs();
   return all;
-}
-
-// Whether a segment meets the outline enlarged on every side.
-bool WallQuery::isNear(const WallSegment& wall, double reach) const {
-  const auto [middle, half] = around(reach + wall.radius);
-  const Vector2 centre = 0.5 * (wall.start + wall.end) - middle;
-  const Vector2 arm = 0.5 * (wall.end - wall.start);
-  if ((centre.cwiseAbs() - arm.cwiseAbs() - half).maxCoeff() > 0.0) return false;
-  // Along the segment's normal.
-  return std::abs(cross(arm, centre)) <=
-         half.x() * std::abs(arm.y()) + half.y() * std::abs(arm.x());
 }
 
 std::optional<Impact> WallQuery::meanOfContacts(const BarrierMesh& mesh,

@@ -12,12 +12,6 @@
 
 namespace bumper {
 
-/// A rectangle in a vehicle's yaw plane and axes, m.
-struct PlanRectangle {
-  Vector2 middle = Vector2::Zero();
-  Vector2 half = Vector2::Zero();
-};
-
 /// Asks a barrier what is near one vehicle's outline. Works in the vehicle's own frame: axes
 /// forward, left, up; origin at the mass centre.
 class WallQuery {
@@ -50,8 +44,6 @@ class WallQuery {
                                                const VehicleState& state, double reach) const;
 
   [[nodiscard]] const Outline& outline() const { return outline_; }
-  /// The outline enlarged on every side, m.
-  [[nodiscard]] PlanRectangle around(double reach) const;
   /// What the outline passes over in a step of `h` seconds if nothing stops it. `motion` is in the
   /// vehicle's axes at the step's start.
   [[nodiscard]] PlanRectangle swept(const PlanarMotion& motion, double h) const;
@@ -78,7 +70,6 @@ class WallQuery {
                                double lowestTop) const;
 
  private:
-  [[nodiscard]] bool isNear(const WallSegment& wall, double reach) const;
   void placeBox(const VehicleState& state, const Margins& margins);
 
   Outline outline_;

@@ -85,13 +85,4 @@ std::pair<double, double> AngleCurve::range() const {
 
 double AttackDirection::angle() const { return std::atan2(across, along); }
 
-double AttackDirection::cosine() const {
-  const double length2 = across * across + along * along;
-  return length2 > 0.0 ? along / std::sqrt(length2) : 1.0;
-}
-
-AttackDirection attackOn(const Vector2& direction, const Vector2& normal) {
-  return {.across = std::abs(direction.dot(normal)), .along = std::abs(cross(direction, normal))};
-}
-
 }  // namespace bumper

@@ -47,9 +47,6 @@ constexpr double lookAgain = 0.01;
 constexpr double unseenDepth = 1e-6;
 constexpr double looksInStep = 12.0;
 
-// More than the outline turns in a step in which that matters, rad.
-constexpr double turnsInStep = 0.2;
-
 WallSegment oriented(const WallSegment& wall, const Vector2& centre) {
   WallSegment result = wall;
   if (wall.isPost()) {
@@ -112,31 +109,35 @@ int CollisionStep::wallAt(const Wall& wall, const Vector2& point) const {
 }
 
 void CollisionStep::mergeWalls(std::span<const WallSegment> walls, const Vector2& centre) {
-  merged_.clear();
-  for (const WallSegment& wall : walls) merged_.push_back(oriented(wall, centre));
+  oriented_.clear();
+  order_.clear();
+  for (const WallSegment& wall : walls) {
+    order_.push_back({.piece = oriented_.size()});
+    oriented_.push_back(oriented(wall, centre));
+    order_.back().place = turnedLeft(oriented_.back().normal).dot(oriented_.back().start);
+  }
   // An order that does not depend on the mesh's; along one line it is the order of the pieces.
-  const auto key = [](const WallSegment& wall) {
-    const Vector2 tangent = turnedLeft(wall.normal);
-    return std::tuple(tangent.dot(wall.start), tangent.dot(wall.end), wall.normal.x(),
-                      wall.normal.y(), wall.start.x(), wall.start.y(), wall.id);
+  const auto others = [this](const Ordered& each) {
+    const WallSegment& wall = oriented_[each.piece];
+    return std::tuple(turnedLeft(wall.normal).dot(wall.end), wall.normal.x(), wall.normal.y(),
+                      wall.start.x(), wall.start.y(), wall.id);
   };
-  std::sort(merged_.begin(), merged_.end(),
-            [&key](const WallSegment& a, const WallSegment& b) { return key(a) < key(b); });
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < merged_.size(); ++i) {
-    const WallSegment piece = merged_[i];
-    const auto end = merged_.begin() + static_cast<std::ptrdiff_t>(kept);
-    const auto wall = std::find_if(merged_.begin(), end, [&piece](const WallSegment& candidate) {
-      return continues(candidate, piece);
-    });
-    if (wall == end) {
-      merged_[kept++] = piece;
+  std::sort(order_.begin(), order_.end(), [&others](const Ordered& a, const Ordered& b) {
+    return a.place != b.place ? a.place < b.place : others(a) < others(b);
+  });
+  merged_.clear();
+  for (const Ordered& each : order_) {
+    const WallSegment& piece = oriented_[each.piece];
+    const auto wall = std::find_if(
+        merged_.begin(), merged_.end(),
+        [&piece](const WallSegment& candidate) { return continues(candidate, piece); });
+    if (wall == merged_.end()) {
+      merged_.push_back(piece);
       continue;
     }
     const Vector2 tangent = turnedLeft(wall->normal);
     if (tangent.dot(piece.end) > tangent.dot(wall->end)) wall->end = piece.end;
   }
-  merged_.resize(kept);
   walls_.clear();
   for (const WallSegment& wall : merged_) walls_.push_back({.segment = wall});
 }
@@ -182,7 +183,7 @@ void CollisionStep::findTouched(double time) {
     wall.touched = overlap.has_value();
     wall.hidden = false;
     wall.struck = false;
-    wall.overlap = overlap ? *overlap : lineOf(wall.segment, motion_.position);
+    if (overlap) wall.overlap = *overlap;
   }
 }
 
@@ -421,7 +422,7 @@ Vector2 CollisionStep::easeOut(double h) const {
 
 // How long a wall that is touched can be left alone, s: none of the points that touch can approach
 // before, or be deeper than `unseenDepth`.
-double CollisionStep::quietTime(const Wall& wall) const {
+double CollisionStep::quietTime(const Wall& wall, double h) const {
   // The most that the rate of any gap can change by itself.
   const double turning = std::abs(motion_.yawRate);
   const double bend = turning * (2.0 * motion_.velocity.norm() + turning * outline_.radius());
@@ -436,10 +437,10 @@ double CollisionStep::quietTime(const Wall& wall) const {
     const double left = slip > 0.0 ? overlap.end - along : along - overlap.start;
     const bool isCorner =
         !overlap.byEnd && std::min(along - overlap.start, overlap.end - along) > touchTolerance;
-    // A corner is drawn away from the wall as long as it lies on the wall's side of the mass
-    // centre: it turns about that.
-    const double inwards = overlap.normal.dot(contact.arm);
-    if (!isCorner || inwards > -turnsInStep * outline_.radius()) {
+    // Turning draws a corner away from the wall as long as it lies on the wall's side of the mass
+    // centre; at the step's end, too.
+    const double highest = overlap.normal.dot(contact.arm) + turning * h * outline_.radius();
+    if (!isCorner || highest > 0.0) {
       time = std::min(time, leastTime(unseenDepth, -overlap.normal.dot(velocity), bend));
     }
     if (isCorner && slip != 0.0) time = std::min(time, left / std::abs(slip));
@@ -454,7 +455,7 @@ double CollisionStep::quietTime(const Wall& wall) const {
 double CollisionStep::pause(double h) const {
   double time = never;
   for (const Wall& wall : walls_) {
-    if (wall.touched && !wall.passed) time = std::min(time, quietTime(wall));
+    if (wall.touched && !wall.passed) time = std::min(time, quietTime(wall, h));
   }
   return std::max(time, h / looksInStep);
 }

@@ -15,18 +15,6 @@ Placement::Placement(const Vector2& itsPosition, double yaw) : position(itsPosit
   sine = std::sin(yaw);
 }
 
-PlanarMotion afterImpulse(PlanarMotion motion, const PlanarImpulse& impulse, double mass,
-                          double yawInertia) {
-  motion.velocity += impulse.linear / mass;
-  motion.yawRate += impulse.angular / yawInertia;
-  return motion;
-}
-
-double yawPlaneEnergy(const PlanarMotion& motion, double mass, double yawInertia) {
-  return 0.5 * mass * motion.velocity.squaredNorm() +
-         0.5 * yawInertia * motion.yawRate * motion.yawRate;
-}
-
 bool isFinite(const PlanarMotion& motion) {
   return motion.position.allFinite() && motion.velocity.allFinite() && std::isfinite(motion.yaw) &&
          std::isfinite(motion.yawRate);

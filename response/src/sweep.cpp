@@ -145,28 +145,6 @@ double cornerOnPost(const Flight& flight, const Vector2& corner, const WallSegme
                      until);
 }
 
-// Where the outline can come at all, in its own frame at the start.
-struct Bounds {
-  Bounds(const Outline& outline, double around)
-      : middle(0.5 * (outline.front - outline.rear), 0.0),
-        half(0.5 * (outline.front + outline.rear), outline.halfWidth) {
-    half.array() += around;
-  }
-
-  /// Whether no point between two others lies there.
-  [[nodiscard]] bool excludes(const Vector2& from, const Vector2& to) const {
-    const Vector2 centre = 0.5 * (from + to) - middle;
-    const Vector2 arm = 0.5 * (to - from);
-    if ((centre.cwiseAbs() - arm.cwiseAbs() - half).maxCoeff() > 0.0) return true;
-    // Across the line between them.
-    return std::abs(cross(arm, centre)) >
-           half.x() * std::abs(arm.y()) + half.y() * std::abs(arm.x());
-  }
-
-  Vector2 middle;
-  Vector2 half;
-};
-
 }  // namespace
 
 double leastTime(double distance, double rate, double bend) {
@@ -197,10 +175,10 @@ double Sweep::timeOfTouch(const WallSegment& wall, const Overlap* touch, double 
                       .from = from,
                       .first = begin};
   const double way = fastest_ * (until - from) + 2.0 * touchTolerance;
-  const Bounds bounds(outline_, way + wall.radius);
+  const PlanRectangle bounds = outline_.enlarged(way + wall.radius);
   const Vector2 start = flight.first.local(wall.start);
   const Vector2 end = flight.first.local(wall.end);
-  if (bounds.excludes(start, end)) return never;
+  if (bounds.misses(start, end)) return never;
 
   double first = until;
   bool found = false;
@@ -211,6 +189,8 @@ double Sweep::timeOfTouch(const WallSegment& wall, const Overlap* touch, double 
   };
 
   const bool inFace = touch != nullptr && !touch->byEnd;
+  const Vector2 middle = 0.5 * (wall.start + wall.end);
+  const double halfLength = 0.5 * std::abs(cross(wall.normal, wall.end - wall.start));
   for (const Vector2& corner : outline_.corners()) {
     if (wall.isPost()) {
       consider(cornerOnPost(flight, corner, wall, first));
@@ -219,6 +199,7 @@ double Sweep::timeOfTouch(const WallSegment& wall, const Overlap* touch, double 
     const Vector2 place = flight.first.position + flight.first.turned(corner);
     double height = wall.normal.dot(place - wall.start);
     if (std::abs(height) > way) continue;
+    if (std::abs(cross(wall.normal, place - middle)) > halfLength + way) continue;
     // A corner comes from the side that it is on, unless it has gone in a little.
     double front = 1.0;
     if (inFace) {
@@ -242,14 +223,22 @@ double Sweep::timeOfTouch(const WallSegment& wall, const Overlap* touch, double 
       {{0.0, 1.0}, outline_.halfWidth, -outline_.front, outline_.rear},
       {{0.0, -1.0}, outline_.halfWidth, -outline_.rear, outline_.front},
   };
-  const auto considerSides = [&](const Vector2& point) {
+  const auto considerSides = [&](const Vector2& point, const Vector2& local) {
+    // As seen from the turning vehicle the point moves no faster than that.
+    const double itsWay =
+        (speed_ + flight.turning * (local.norm() + way)) * (until - from) + 2.0 * touchTolerance;
     for (const Side& side : sides) {
+      const double away = side.out.dot(local) - side.reach - wall.radius;
+      const double along = turnedLeft(side.out).dot(local);
+      if (std::abs(away) > itsWay || std::max(side.low - along, along - side.high) > itsWay) {
+        continue;
+      }
       consider(pointOnSide(flight, point, wall, side.out, side.reach, side.low - touchTolerance,
                            side.high + touchTolerance, first));
     }
   };
-  if (!bounds.excludes(start, start)) considerSides(wall.start);
-  if (!wall.isPost() && !bounds.excludes(end, end)) considerSides(wall.end);
+  if (!bounds.misses(start, start)) considerSides(wall.start, start);
+  if (!wall.isPost() && !bounds.misses(end, end)) considerSides(wall.end, end);
   if (!found) return never;
   return first;
 }

@@ -183,17 +183,29 @@ double ClearanceMap::atLeast(double x, double y) const {
   if (!std::isfinite(x) || !std::isfinite(y)) return 0.0;
   const double columns = (x - lowX_) / cell_;
   const double rows = (y - lowY_) / cell_;
-  const std::size_t column = cellAt(columns, columns_);
-  const std::size_t row = cellAt(rows, rows_);
-  const double asideX = std::abs(columns - static_cast<double>(column) - 0.5);
-  const double asideY = std::abs(rows - static_cast<double>(row) - 0.5);
-  // No less than the way to the cell's middle.
-  const double aside = std::max(asideX, asideY) + 0.41422 * std::min(asideX, asideY);
+  // What the middles of the four cells around know: the one that lies away from the walls loses
+  // least on the way to the place.
+  const std::size_t left = cellAt(columns - 0.5, columns_);
+  const std::size_t low = cellAt(rows - 0.5, rows_);
+  double best = 0.0;
+  for (const std::size_t row : {low, std::min(low + 1, rows_ - 1)}) {
+    for (const std::size_t column : {left, std::min(left + 1, columns_ - 1)}) {
+      const double asideX = std::abs(columns - static_cast<double>(column) - 0.5);
+      const double asideY = std::abs(rows - static_cast<double>(row) - 0.5);
+      // No less than the way to the cell's middle.
+      const double aside = std::max(asideX, asideY) + 0.41422 * std::min(asideX, asideY);
+      best = std::max(best, fromMiddle(row, column) - aside);
+    }
+  }
+  return std::max(best - 1e-9, 0.0) * cell_;
+}
+
+double ClearanceMap::fromMiddle(std::size_t row, std::size_t column) const {
   const std::int32_t tile = tiles_[row / tileSide * tileColumns_ + column / tileSide];
-  const double parts = tile < 0 ? -tile
-                                : distances_[static_cast<std::size_t>(tile) +
-                                             row % tileSide * tileSide + column % tileSide];
-  return std::max(parts / partsOfCell - aside - 1e-9, 0.0) * cell_;
+  const int parts = tile < 0 ? -tile
+                             : distances_[static_cast<std::size_t>(tile) +
+                                          row % tileSide * tileSide + column % tileSide];
+  return static_cast<double>(parts) / partsOfCell;
 }
 
 }  // namespace bumper

@@ -6,6 +6,7 @@
 
 #include "box_car.h"
 #include "bumper/engine_adapter/responder.h"
+#include "bumper/response/error.h"
 #include "bumper/scenes/paper_scenes.h"
 #include "ode_world.h"
 
@@ -14,8 +15,8 @@ namespace {
 
 constexpr double h = 0.005;
 
-void placeAtWall(BoxCar& car, double x) {
-  car.place({x, 0.85, 0.55}, Eigen::Matrix3d::Identity());
+void placeAtWall(BoxCar& car, double x, double wallAt = 0.0) {
+  car.place({x, wallAt + 0.85, 0.55}, Eigen::Matrix3d::Identity());
   car.move({0.0, -3.0, 0.0}, Eigen::Vector3d::Zero());
   dBodySetForce(car.body, 0.0, 0.0, 0.0);
 }
@@ -43,6 +44,62 @@ TEST(Lifecycle, ARemovedBarrierIsNoLongerThere) {
   const auto events = responder.step(h);
   ASSERT_FALSE(events.empty());
   EXPECT_EQ(events[0].barrier, "second");
+}
+
+// Moved by 3 m it is hit there and no longer where it was, by its old id and name.
+TEST(Lifecycle, AMovedGeomIsReadAnew) {
+  OdeWorld ode;
+  Responder responder(ode.world);
+  dGeomID box = dCreateBox(ode.space, 60.0, 0.2, 2.0);
+  dGeomSetPosition(box, 0.0, -0.1, 1.0);
+  const BarrierId gate = responder.addBarrier(box, {.name = "gate"});
+  BoxCar car(ode.world);
+  responder.addVehicle(car.body, car.parameters);
+  placeAtWall(car, 0.0);
+  ASSERT_FALSE(responder.step(h).empty());
+
+  dGeomSetPosition(box, 0.0, -3.1, 1.0);
+  responder.updateBarrier(gate);
+  EXPECT_EQ(responder.geom(gate), box);
+  placeAtWall(car, 0.0);
+  EXPECT_TRUE(responder.step(h).empty());
+  placeAtWall(car, 0.0, -3.0);
+  const auto events = responder.step(h);
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events[0].barrier, "gate");
+  EXPECT_NEAR(events[0].contact.y(), -3.0, 1e-9);
+  EXPECT_THROW(responder.updateBarrier(gate, wall()), Error);
+}
+
+TEST(Lifecycle, AMovedSceneTakesTheOldOnesPlace) {
+  OdeWorld ode;
+  Responder responder(ode.world);
+  const int geoms = dSpaceGetNumGeoms(ode.space);
+  const BarrierId gate = responder.addBarrier(wall(), {.space = ode.space, .name = "gate"});
+  BoxCar car(ode.world, ode.space);
+  responder.addVehicle(car.body, car.parameters);
+  placeAtWall(car, 0.0);
+  ASSERT_FALSE(responder.step(h).empty());
+
+  Scene moved = wall();
+  for (Eigen::Vector3d& vertex : moved.vertices) vertex.y() -= 3.0;
+  responder.updateBarrier(gate, moved);
+  EXPECT_EQ(dSpaceGetNumGeoms(ode.space), geoms + 2);  // the car's and the new one
+  EXPECT_TRUE(responder.claims(car.geom, responder.geom(gate)));
+  placeAtWall(car, 0.0);
+  EXPECT_TRUE(responder.step(h).empty());
+  placeAtWall(car, 0.0, -3.0);
+  EXPECT_FALSE(responder.step(h).empty());
+
+  // Without walls, or without a scene, nothing changes.
+  Scene flat = wall();
+  for (Eigen::Vector3d& vertex : flat.vertices) vertex.z() = 0.0;
+  EXPECT_THROW(responder.updateBarrier(gate, flat), Error);
+  EXPECT_THROW(responder.updateBarrier(gate), Error);
+  placeAtWall(car, 0.0, -3.0);
+  EXPECT_FALSE(responder.step(h).empty());
+  responder.removeBarrier(gate);
+  EXPECT_THROW(responder.updateBarrier(gate, moved), Error);
 }
 
 TEST(Lifecycle, ARemovedVehicleIsOdesAgain) {

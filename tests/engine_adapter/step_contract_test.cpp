@@ -151,6 +151,20 @@ TEST(StepContract, ATeleportDropsWhatIsPending) {
   EXPECT_EQ(run.car.velocity(), Eigen::Vector3d(5.0, 0.0, 0.0));
 }
 
+// Put 30 m on in the direction in which it goes it looks as after a world step of two seconds.
+TEST(StepContract, ATeleportAlongTheWayIsNoLongStep) {
+  Approach run;
+  while (run.responder.step(h).empty()) dWorldQuickStep(run.ode.world, h);
+  const dReal* from = dBodyGetPosition(run.car.body);
+  run.car.place({from[0] - 30.0, from[1], from[2]}, Eigen::Matrix3d::Identity());
+  run.car.move({-15.0, 0.0, 0.0}, Eigen::Vector3d::Zero());
+  dBodySetForce(run.car.body, 0.0, 0.0, 0.0);
+  run.responder.step(h);
+  EXPECT_EQ(run.responder.issues(run.vehicle), step_issue::moved);
+  dWorldQuickStep(run.ode.world, h);
+  EXPECT_EQ(run.car.velocity(), Eigen::Vector3d(-15.0, 0.0, 0.0));
+}
+
 TEST(StepContract, APauseChangesNothing) {
   Approach run;
   for (int i = 0; i < steps; ++i) {

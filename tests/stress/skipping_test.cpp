@@ -88,6 +88,12 @@ class Side {
     barriers_.push_back(responder_.addBarrier(post));
   }
 
+  void movePost(const Eigen::Vector3d& place) {
+    if (barriers_.empty()) return;
+    dGeomSetPosition(posts_.back(), place.x(), place.y(), place.z());
+    responder_.updateBarrier(barriers_.back());
+  }
+
   void removePost() {
     if (barriers_.empty()) return;
     responder_.removeBarrier(barriers_.back());
@@ -212,11 +218,12 @@ void expectEqual(const Arena& arena, int steps, std::uint64_t seed) {
       both([&](Side& side) { side.push(car, force[index], moment[index]); });
       if (random.below(300) == 0) surprise(car);
     }
-    if (random.below(500) == 0) {
+    const int change = random.below(500);
+    if (change < 2) {
       const dReal* at = dBodyGetPosition(asking.body(0));
       const Eigen::Vector3d place(at[0] + random.uniform(-8.0, 8.0),
                                   at[1] + random.uniform(-8.0, 8.0), at[2]);
-      both([&](Side& side) { side.addPost(place); });
+      both([&](Side& side) { change == 0 ? side.addPost(place) : side.movePost(place); });
     }
     if (random.below(500) == 0) both([](Side& side) { side.removePost(); });
     const double h = random.below(100) == 0 ? random.uniform(1e-4, 0.1) : 0.005;

@@ -70,13 +70,13 @@ inline constexpr unsigned moved = 64;  ///< a vehicle was moved by other means t
 /// Vehicle frame: x forward, y left, z up in the chassis body's axes, origin at the mass centre of
 /// the chassis and its linked bodies. World: right-handed, z up, metres, double precision.
 ///
-/// Barriers stand still: a scene, or a geom of the application's. Nothing here touches data,
-/// callbacks or collision bits of the application's geoms and bodies. A body, a geom, or the space
-/// that holds a barrier's new geom must be removed here before it is destroyed, or outlive the
-/// responder. Set-up calls throw Error and then change nothing; step(), claims() and
-/// keepUnclaimed() do not throw, unless memory runs out. A responder that was moved from can only
-/// be destroyed or assigned to. One responder belongs to one thread at a time; see trimeshLock()
-/// for several.
+/// Barriers stand still between calls of updateBarrier(): a scene, or a geom of the application's.
+/// Nothing here touches data, callbacks or collision bits of the application's geoms and bodies. A
+/// body, a geom, or the space that holds a barrier's new geom must be removed here before it is
+/// destroyed, or outlive the responder. Set-up calls throw Error and then change nothing; step(),
+/// claims() and keepUnclaimed() do not throw, unless memory runs out. A responder that was moved
+/// from can only be destroyed or assigned to. One responder belongs to one thread at a time; see
+/// trimeshLock() for several.
 class Responder {
  public:
   /// Throws Error if the world is null, ODE is not in double precision, or a setting is invalid.
@@ -94,9 +94,18 @@ class Responder {
 
   /// A geom that the application already has: the walls of a trimesh, road and walls in one, the
   /// sides of a box, a plane, which is half of the world, or an upright cylinder. It must stand
-  /// still from now on. ODE keeps a trimesh's vertices in single precision, and so they are read.
-  /// Throws Error if it is of another class, has a body, is registered already or has no wall.
+  /// still from now on, or updateBarrier() be called. ODE keeps a trimesh's vertices in single
+  /// precision, and so they are read. Throws Error if it is of another class, has a body, is
+  /// registered already or has no wall.
   BarrierId addBarrier(dGeomID geom, const BarrierOptions& options = {});
+
+  /// Call after the application has moved or changed a barrier's geom: its walls are read anew. Of
+  /// a barrier made from a scene, or whose shape is given as one, the scene as it is now takes the
+  /// old one's place; its own geom is then a new one. Id, name and settings stay, and so does what
+  /// vehicles are doing with it; one that it was moved into is eased out, not pushed. Costs as much
+  /// as adding it. Throws Error as addBarrier() does.
+  void updateBarrier(BarrierId barrier);
+  void updateBarrier(BarrierId barrier, const Scene& scene);
 
   /// The geom that a barrier's contacts come with: the new one, or the application's own.
   [[nodiscard]] dGeomID geom(BarrierId barrier) const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -15,11 +16,16 @@ struct AttackDirection {
 
   /// From 0 (grazing) to π/2 (head-on), rad; 0 for a zero direction.
   [[nodiscard]] double angle() const;
-  [[nodiscard]] double cosine() const;
+  [[nodiscard]] double cosine() const {
+    const double length2 = across * across + along * along;
+    return length2 > 0.0 ? along / std::sqrt(length2) : 1.0;
+  }
 };
 
 /// A direction against a wall with the given unit normal.
-AttackDirection attackOn(const Vector2& direction, const Vector2& normal);
+inline AttackDirection attackOn(const Vector2& direction, const Vector2& normal) {
+  return {.across = std::abs(direction.dot(normal)), .along = std::abs(cross(direction, normal))};
+}
 
 /// A quantity as a function of the angle of attack: restitution, friction, or the fraction of
 /// energy that remains. The paper calls its curves "cosine shaped" (Figure 4), which can be read in

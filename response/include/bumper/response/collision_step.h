@@ -76,13 +76,19 @@ class CollisionStep {
   /// A wall nearby, and what is known of the outline in it.
   struct Wall {
     WallSegment segment;
-    Overlap overlap{};
+    Overlap overlap{};       ///< if touched
     bool touched = false;    ///< the outline touches or overlaps it
     bool hidden = false;     ///< … but it lies behind another touched wall
     bool struck = false;     ///< … and `contact` has had an impulse at this instant
     bool passed = false;     ///< it lets the vehicle through, or takes part no more in this step
     double unheardOf = 0.0;  ///< touches before this time were looked at, to no effect
     Approach contact{};
+  };
+
+  /// A piece of a wall, by its place along its own line.
+  struct Ordered {
+    std::size_t piece = 0;
+    double place = 0.0;
   };
 
   /// The next impulse to apply; none if `wall` is null.
@@ -111,7 +117,7 @@ class CollisionStep {
   void answerTogether(double time);
   void record(const Wall& wall, const Approach& at, double time, const ImpactResponse& response);
   NextTouch nextTouch(double from, double until);
-  [[nodiscard]] double quietTime(const Wall& wall) const;
+  [[nodiscard]] double quietTime(const Wall& wall, double h) const;
   [[nodiscard]] double pause(double h) const;
 
   Next firstNewWall();
@@ -129,6 +135,8 @@ class CollisionStep {
   Placement place_;  // of motion_, when one last looked around
   std::span<const WallSegment> given_;
 
+  std::vector<WallSegment> oriented_;
+  std::vector<Ordered> order_;
   std::vector<WallSegment> merged_;
   std::vector<Wall> walls_;
   std::vector<StepImpact> impacts_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 
@@ -10,6 +11,22 @@
 namespace bumper {
 
 struct ResponseSettings;
+
+/// A rectangle along the axes of a vehicle's own frame, m.
+struct PlanRectangle {
+  Vector2 middle = Vector2::Zero();
+  Vector2 half = Vector2::Zero();
+
+  /// Whether it holds no point of the segment between two points.
+  [[nodiscard]] bool misses(const Vector2& from, const Vector2& to) const {
+    const Vector2 centre = 0.5 * (from + to) - middle;
+    const Vector2 arm = 0.5 * (to - from);
+    if ((centre.cwiseAbs() - arm.cwiseAbs() - half).maxCoeff() > 0.0) return true;
+    // Across the segment.
+    return std::abs(cross(arm, centre)) >
+           half.x() * std::abs(arm.y()) + half.y() * std::abs(arm.x());
+  }
+};
 
 /// The vehicle's bounding rectangle in its yaw plane (the paper's Figure 1), m from the mass
 /// centre.
@@ -23,6 +40,11 @@ struct Outline {
         rear(vehicle.massCentreToRear),
         halfWidth(0.5 * vehicle.width) {}
 
+  /// Enlarged on every side, m.
+  [[nodiscard]] PlanRectangle enlarged(double by) const {
+    return {.middle = {0.5 * (front - rear), 0.0},
+            .half = {0.5 * (front + rear) + by, halfWidth + by}};
+  }
   /// From the mass centre to the farthest corner, m.
   [[nodiscard]] double radius() const;
   /// Front left, rear left, rear right, front right in the vehicle's frame: counter-clockwise.

@@ -44,21 +44,50 @@ struct ContactImpulse {
 };
 
 /// Sums over both bodies; a barrier adds nothing.
-ContactMobility contactMobility(const ContactBody& vehicle, const ContactBody& other,
-                                const Vector2& normal);
+inline ContactMobility contactMobility(const ContactBody& vehicle, const ContactBody& other,
+                                       const Vector2& normal) {
+  ContactMobility mobility;
+  for (const ContactBody* body : {&vehicle, &other}) {
+    const double armNormal = body->arm.dot(normal);
+    const double armTangent = body->arm.dot(turnedLeft(normal));
+    mobility.normal += body->inverseMass + armTangent * armTangent * body->inverseYawInertia;
+    mobility.tangent += body->inverseMass + armNormal * armNormal * body->inverseYawInertia;
+    mobility.coupling -= armNormal * armTangent * body->inverseYawInertia;
+  }
+  return mobility;
+}
 
-ContactVelocity contactVelocity(const ContactBody& vehicle, const ContactBody& other,
-                                const Vector2& normal);
+inline ContactVelocity contactVelocity(const ContactBody& vehicle, const ContactBody& other,
+                                       const Vector2& normal) {
+  const auto ofPoint = [](const ContactBody& body) -> Vector2 {
+    return body.velocity + body.yawRate * turnedLeft(body.arm);
+  };
+  const Vector2 relative = ofPoint(vehicle) - ofPoint(other);
+  return {.normal = relative.dot(normal), .tangent = relative.dot(turnedLeft(normal))};
+}
 
 /// The contact point's velocity after an impulse.
-ContactVelocity afterImpulse(const ContactVelocity& before, const ContactMobility& mobility,
-                             const ContactImpulse& impulse);
+inline ContactVelocity afterImpulse(const ContactVelocity& before, const ContactMobility& mobility,
+                                    const ContactImpulse& impulse) {
+  return {.normal = before.normal + mobility.normal * impulse.normal +
+                    mobility.coupling * impulse.tangent,
+          .tangent = before.tangent + mobility.coupling * impulse.normal +
+                     mobility.tangent * impulse.tangent};
+}
 
 /// Kinetic energy that an impulse adds to both bodies together, J; negative for a loss.
-double energyChange(const ContactVelocity& before, const ContactMobility& mobility,
-                    const ContactImpulse& impulse);
+inline double energyChange(const ContactVelocity& before, const ContactMobility& mobility,
+                           const ContactImpulse& impulse) {
+  const ContactVelocity after = afterImpulse(before, mobility, impulse);
+  return 0.5 * ((before.normal + after.normal) * impulse.normal +
+                (before.tangent + after.tangent) * impulse.tangent);
+}
 
 /// The impulse as a vector in the plane with its moment about the vehicle's mass centre.
-PlanarImpulse onVehicle(const ContactImpulse& impulse, const Vector2& normal, const Vector2& arm);
+inline PlanarImpulse onVehicle(const ContactImpulse& impulse, const Vector2& normal,
+                               const Vector2& arm) {
+  const Vector2 linear = impulse.normal * normal + impulse.tangent * turnedLeft(normal);
+  return {.linear = linear, .angular = cross(arm, linear)};
+}
 
 }  // namespace bumper

@@ -65,11 +65,18 @@ struct PlanarImpulse {
 };
 
 /// The motion after an impulse acted on the mass centre (Eqs. 1 and 2).
-PlanarMotion afterImpulse(PlanarMotion motion, const PlanarImpulse& impulse, double mass,
-                          double yawInertia);
+inline PlanarMotion afterImpulse(PlanarMotion motion, const PlanarImpulse& impulse, double mass,
+                                 double yawInertia) {
+  motion.velocity += impulse.linear / mass;
+  motion.yawRate += impulse.angular / yawInertia;
+  return motion;
+}
 
 /// ½ m |v|² + ½ I r² (Eq. 25), J.
-double yawPlaneEnergy(const PlanarMotion& motion, double mass, double yawInertia);
+inline double yawPlaneEnergy(const PlanarMotion& motion, double mass, double yawInertia) {
+  return 0.5 * mass * motion.velocity.squaredNorm() +
+         0.5 * yawInertia * motion.yawRate * motion.yawRate;
+}
 
 /// Whether all six numbers are finite.
 bool isFinite(const PlanarMotion& motion);

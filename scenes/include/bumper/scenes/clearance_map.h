@@ -34,6 +34,8 @@ class ClearanceMap {
   void findDistances(const Wall& wall, std::vector<std::uint8_t>& distances,
                      std::vector<std::uint8_t>& away) const;
   void keep(const std::vector<std::uint8_t>& distances);
+  /// From the middle of a cell to the nearest wall at least, in cells.
+  [[nodiscard]] double fromMiddle(std::size_t row, std::size_t column) const;
 
   std::size_t columns_ = 0;
   std::size_t rows_ = 0;
