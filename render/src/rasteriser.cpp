@@ -508,10 +508,12 @@ void Rasteriser::drawLayers(const Picture& picture) const {
   gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 
   // Ribbons pass for nearer than they are: vehicles once more, over their ends.
+  gl_.Disable(GL_BLEND);
   gl_.DepthMask(GL_FALSE);
   paint(ribbons);
   gl_.DepthMask(GL_TRUE);
   drawBodies(picture, false);
+  gl_.Enable(GL_BLEND);
   drawBodies(picture, true);
   paint(markers);
 
