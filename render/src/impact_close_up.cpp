@@ -281,7 +281,9 @@ std::vector<std::pair<double, double>> surfaceOf(const Situation& s) {
     const double nearest = std::clamp(-a.dot(way) / std::max(way.squaredNorm(), 1e-12), 0.0, 1.0);
     sceneHasIt = sceneHasIt || (a + nearest * way).norm() < 5.0 * onLine;
     if (std::abs(a.dot(s.normal)) > onLine || std::abs(b.dot(s.normal)) > onLine) continue;
-    stretches.push_back(std::minmax(a.dot(s.tangent), b.dot(s.tangent)));
+    const double begin = a.dot(s.tangent);
+    const double end = b.dot(s.tangent);
+    stretches.emplace_back(std::min(begin, end), std::max(begin, end));
   }
   if (!sceneHasIt) return {{-40.0, 40.0}};
   std::ranges::sort(stretches);
