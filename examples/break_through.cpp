@@ -13,6 +13,7 @@
 
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/scenes/paper_scenes.h"
+#include "bumper/scenes/scene_files.h"
 #include "results.h"
 
 namespace {
@@ -34,22 +35,30 @@ ResponseSettings fenceSettings() {
   return settings;
 }
 
-/// A fence along y and a wall 14 m behind it, in one scene: they differ by their material.
-Scene fenceAndWall() {
-  Scene scene = straightWall({20.0, -12.0}, {20.0, 45.0}, 1.0, 19, 1);
-  scene.name = "yard";
-  scene.meshes[0].name = "fence";
-  scene.meshes[0].material = "wood";
-  scene.meshes[0].colour = {0.72F, 0.53F, 0.30F};
-  const Scene wall = straightWall({34.0, -12.0}, {34.0, 70.0}, 1.2, 20, 1);
+/// Adds a part that is one mesh.
+void add(const Scene& part, const SceneMesh& mesh, Scene& scene) {
   const auto first = static_cast<std::uint32_t>(scene.vertices.size());
-  scene.meshes.push_back({.name = "wall", .material = "concrete", .colour = {0.6F, 0.6F, 0.62F}});
-  scene.vertices.insert(scene.vertices.end(), wall.vertices.begin(), wall.vertices.end());
-  for (Scene::Triangle triangle : wall.triangles) {
+  scene.vertices.insert(scene.vertices.end(), part.vertices.begin(), part.vertices.end());
+  for (Scene::Triangle triangle : part.triangles) {
     for (std::uint32_t& corner : triangle.corners) corner += first;
-    triangle.mesh = 1;
+    triangle.mesh = static_cast<std::uint32_t>(scene.meshes.size());
     scene.triangles.push_back(triangle);
   }
+  scene.meshes.push_back(mesh);
+}
+
+/// A fence along y and a wall 14 m behind it, in one scene: they differ by their material.
+Scene yard() {
+  Scene ground;
+  ground.vertices = {{-20, -25, 0}, {50, -25, 0}, {50, 85, 0}, {-20, 85, 0}};
+  ground.triangles = {{{0, 1, 2}}, {{0, 2, 3}}};
+  Scene scene;
+  scene.name = "yard";
+  add(straightWall({20.0, -12.0}, {20.0, 45.0}, 1.0, 19, 1),
+      {.name = "fence", .material = "wood", .colour = {0.72F, 0.53F, 0.30F}}, scene);
+  add(straightWall({34.0, -12.0}, {34.0, 70.0}, 1.2, 20, 1),
+      {.name = "wall", .material = "concrete", .colour = {0.72F, 0.70F, 0.66F}}, scene);
+  add(ground, {.name = "ground", .material = "gravel", .colour = {0.45F, 0.46F, 0.44F}}, scene);
   return scene;
 }
 
@@ -86,9 +95,15 @@ int main(int argc, char** argv) {
     CLI::App app("Two cars break through a fence; the wall behind it stops them.");
     app.add_option("folder", folder, "for tables and pictures")->capture_default_str();
     CLI11_PARSE(app, argc, argv);
+    // In a file beside the recording, by which the tools find it again.
+    std::filesystem::create_directories(folder);
+    saveScene(yard(), folder / "yard.glb");
+    const Scene scene = loadScene(folder / "yard.glb");
+    RunDescription described{.scene = referenceTo(scene)};
+    described.scene.file = "yard.glb";
+
     dInitODE2(0);
     const dWorldID world = dWorldCreate();  // without gravity: the cars stay in their yaw plane
-    const Scene scene = fenceAndWall();
     const Recording recording = drive(world, scene);
     dWorldDestroy(world);
     dCloseODE();
@@ -101,8 +116,7 @@ int main(int argc, char** argv) {
       std::printf("  %.8s: %.4f of the energy asked, %.4f left\n", event.vehicle.data(),
                   event.energyAsked, event.energyRatio);
     }
-    writeResults(folder, scene, recording, "Through a fence at 60 mph",
-                 {.scene = referenceTo(scene)});
+    writeResults(folder, scene, recording, "Through a fence at 60 mph", described);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "break_through: %s\n", error.what());
     return 1;

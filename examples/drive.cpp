@@ -26,6 +26,7 @@
 #include "ray_suspension.h"
 #include "results.h"
 #include "tool.h"
+#include "vehicle_mesh_files.h"
 #include "yaw_plane_car.h"
 
 namespace {
@@ -49,6 +50,7 @@ struct Order {
   double duration = 15.0;  // s
   double step = 0.005;     // s
   std::string law = "restitution";
+  VehicleMeshOptions meshes;
   std::filesystem::path out = "out/drive";
 };
 
@@ -173,7 +175,8 @@ Recording run(const Order& order, const Scene& scene) {
   const AngleCurve steering = steeringOf(order.steering);
 
   Recording recording;
-  const std::size_t recorded = recording.addVehicle("car", design.body);
+  const std::size_t recorded =
+      recording.addVehicle("car", design.body, meshSettings(order.meshes, "car", order.out));
   recording.addPose(recorded, poseOf(car, 0.0));
   const auto started = std::chrono::steady_clock::now();
   while (responder.time() < order.duration - 0.5 * order.step) {
@@ -249,9 +252,10 @@ void drive(const Order& order) {
   dInitODE2(0);
   const Scene scene = load(order);
   const Recording recording = run(order, scene);
+  const VehicleMeshes meshes = loadVehicleMeshes(order.meshes, recording, order.out);
   printImpacts(recording);
-  writeResults(order.out, scene, recording, order.scene.filename().string(),
-               describe(order, scene));
+  writeResults(order.out, scene, recording, order.scene.filename().string(), describe(order, scene),
+               meshes);
   dCloseODE();
 }
 
@@ -287,6 +291,7 @@ int runDrive(int argc, char** argv) {
   app.add_option("--law", order.law, "how the walls answer")
       ->check(CLI::IsMember({"restitution", "energy"}))
       ->capture_default_str();
+  addVehicleMeshOptions(app, order.meshes);
   app.add_option("--out", order.out, "folder for tables and pictures")->capture_default_str();
   app.footer("\n" + exitCodes());
   return runTool(app, argc, argv, [&] { drive(order); });

@@ -46,11 +46,13 @@ void record(std::span<const ImpactEvent> events, Recording& recording) {
 }
 
 void writeResults(const std::filesystem::path& folder, const Scene& scene,
-                  const Recording& recording, const std::string& title, const RunDescription& run) {
+                  const Recording& recording, const std::string& title, const RunDescription& run,
+                  const VehicleMeshes& meshes) {
   writeCsv(recording, folder);
   writeRecording(recording, folder / "run.jsonl", run);
   SnapshotOptions options;
   options.title = title;
+  options.vehicleMeshes = meshes;
   options.view = SnapshotView::three_quarter;
   writePng(renderSnapshot(scene, recording, options), folder / "snapshot.png");
   options.view = SnapshotView::top;

@@ -6,6 +6,7 @@
 
 #include "bumper/render/recording.h"
 #include "bumper/render/run_description.h"
+#include "bumper/render/vehicle_meshes.h"
 #include "bumper/scenes/scene.h"
 #include "yaw_plane_car.h"
 
@@ -20,7 +21,8 @@ void record(std::span<const ImpactEvent> events, Recording& recording);
 /// Writes run.jsonl (the recording, which the tools read), events.csv, trajectory.csv, snapshot.png
 /// and top_view.png into a folder, and says so.
 void writeResults(const std::filesystem::path& folder, const Scene& scene,
-                  const Recording& recording, const std::string& title, const RunDescription& run);
+                  const Recording& recording, const std::string& title, const RunDescription& run,
+                  const VehicleMeshes& meshes = {});
 
 /// Prints the impacts in the order of time, one a line; of more than `most` the hardest.
 void printImpacts(const Recording& recording, std::size_t most = 24);

@@ -21,6 +21,7 @@
 #include "recorded_run.h"
 #include "results.h"
 #include "tool.h"
+#include "vehicle_mesh_files.h"
 
 namespace {
 
@@ -37,6 +38,7 @@ constexpr const char* manual = R"(Commands begin with the recording and end with
   bumper-replay frames   run.jsonl frames/ --fps 60 --from 1.2 --to 1.8
   bumper-replay glb      run.jsonl replay.glb
   bumper-replay csv      run.jsonl tables/
+  bumper-replay video    run.jsonl replay.mp4 --vehicle-mesh car.glb
 
 `bumper-replay COMMAND --help` lists a command's options.
 
@@ -55,6 +57,7 @@ struct Order {
   ReplayOptions replay;
   ContactSheetOptions sheet;
   GlbOptions glb;
+  VehicleMeshOptions meshes;
   std::string size;
   std::string vehicle;
   std::vector<double> camera;
@@ -65,6 +68,10 @@ const std::map<std::string, SnapshotView> views{{"top", SnapshotView::top},
                                                 {"chase", SnapshotView::chase},
                                                 {"orbit", SnapshotView::orbit},
                                                 {"fixed", SnapshotView::fixed}};
+
+VehicleMeshes meshesOf(const Order& order, const Recording& recording) {
+  return loadVehicleMeshes(order.meshes, recording, order.run.recording.parent_path());
+}
 
 /// The options that became strings on the command line.
 void complete(Order& order, const Recording& recording) {
@@ -79,6 +86,7 @@ void complete(Order& order, const Recording& recording) {
     picture.chase.vehicle = picture.orbit.vehicle = vehicleIndex(recording, order.vehicle);
     picture.orbit.around = OrbitCamera::Around::vehicle;
   }
+  picture.vehicleMeshes = meshesOf(order, recording);
   const RecordingSpan& span = order.run.span;
   if (std::isfinite(span.from)) order.replay.timing.from = span.from;
   if (std::isfinite(span.to)) order.replay.timing.to = span.to;
@@ -152,6 +160,7 @@ void makePicture(Order& order) {
 
 void makeSheet(Order& order) {
   const RecordedRun run = readRecordedRun(order.run);
+  order.sheet.vehicleMeshes = meshesOf(order, run.recording);
   writePng(contactSheet(run.scene, run.recording, order.sheet), order.result);
 }
 
@@ -183,6 +192,7 @@ void makeFrames(Order& order) {
 
 void makeGlb(Order& order) {
   const RecordedRun run = readRecordedRun(order.run);
+  order.glb.vehicleMeshes = meshesOf(order, run.recording);
   writeGlb(run.scene, run.recording, order.result, order.glb);
 }
 
@@ -236,6 +246,8 @@ int replay(int argc, char** argv) {
                   "m around the run: what of the scene lies beyond is left out")
       ->capture_default_str();
   glb->add_option("--keys-per-second", order.glb.keysPerSecond, "(default: every pose)");
+  for (CLI::App* each : {picture, sheet, video, frames, glb})
+    addVehicleMeshOptions(*each, order.meshes);
   CLI::App* csv = command("csv", "events.csv and trajectory.csv", "folder", makeCsv);
   csv->add_option("--vehicle", order.vehicle, "whose trajectory (default: the first)");
 

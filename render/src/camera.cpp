@@ -227,14 +227,6 @@ Camera cameraFrom(const Vector3d& side, const Subject& subject, const SnapshotOp
   return camera;
 }
 
-/// How many of the points the scene hides.
-int hidden(const SightLines& scene, const Vector3d& eye, const std::vector<Vector3d>& points) {
-  return static_cast<int>(std::ranges::count_if(points, [&](const Vector3d& point) {
-    // Not the surface that a point lies on.
-    return scene.visibleShare(point + 0.02 * (eye - point), eye) < 1.0;
-  }));
-}
-
 Camera threeQuarterCamera(const SightLines& scene, const Recording& recording,
                           const RunExcerpt& run, const SnapshotOptions& options) {
   const Subject subject = subjectOf(scene, recording, run);
@@ -242,9 +234,8 @@ Camera threeQuarterCamera(const SightLines& scene, const Recording& recording,
   const Vector3d side = left.dot(subject.open) < -0.05 ? Vector3d(-left) : left;
   const Camera open = cameraFrom(side, subject, options);
   const Camera other = cameraFrom(-side, subject, options);
-  return hidden(scene, other.eye, subject.watched) < hidden(scene, open.eye, subject.watched)
-             ? other
-             : open;
+  return scene.hidden(subject.watched, other.eye) < scene.hidden(subject.watched, open.eye) ? other
+                                                                                            : open;
 }
 
 /// From an eye to a target, with the light from one side of the world.
@@ -368,11 +359,12 @@ Camera orbitCamera(const Recording& recording, const RunExcerpt& run,
   } else {
     centre = poseNear(followed(recording, orbit.vehicle), run.now).position;
   }
-  const double angle = orbit.angle * degree;
-  const double elevated = orbit.elevation * degree;
-  const Vector3d back(std::cos(elevated) * std::cos(angle), std::cos(elevated) * std::sin(angle),
-                      std::sin(elevated));
-  return cameraAt(centre + orbit.distance * back, centre, 32.0, options);
+  Camera camera = cameraAt(eyeOf(orbit, centre), centre, 32.0, options);
+  // What is seen is lit.
+  const Vector3d side = horizontal(camera.eye - centre, Vector3d::UnitX());
+  camera.sun =
+      (0.45 * side + 0.40 * side.cross(Vector3d::UnitZ()) + 0.80 * Vector3d::UnitZ()).normalized();
+  return camera;
 }
 
 }  // namespace
@@ -393,6 +385,14 @@ double Camera::pixelsPerMetre(const Vector3d& point) const {
 
 Vector3d Camera::towards(const Vector3d& point) const {
   return perspective ? Vector3d((eye - point).normalized()) : back();
+}
+
+Vector3d eyeOf(const OrbitCamera& orbit, const Vector3d& centre) {
+  const double angle = orbit.angle * degree;
+  const double elevated = orbit.elevation * degree;
+  return centre + orbit.distance * Vector3d(std::cos(elevated) * std::cos(angle),
+                                            std::cos(elevated) * std::sin(angle),
+                                            std::sin(elevated));
 }
 
 Camera cameraFor(const SightLines& scene, const Recording& recording, const RunExcerpt& run,

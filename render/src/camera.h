@@ -37,6 +37,9 @@ struct Camera {
   [[nodiscard]] Eigen::Vector3d towards(const Eigen::Vector3d& point) const;
 };
 
+/// Where an orbit camera stands.
+Eigen::Vector3d eyeOf(const OrbitCamera& orbit, const Eigen::Vector3d& centre);
+
 /// Throws Error if the options' view has no such vehicle or a number outside its range.
 Camera cameraFor(const SightLines& scene, const Recording& recording, const RunExcerpt& run,
                  const SnapshotOptions& options);

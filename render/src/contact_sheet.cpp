@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <vector>
 
 #include "bumper/render/snapshot_renderer.h"
 #include "bumper/response/error.h"
+#include "camera.h"
+#include "sight_lines.h"
 #include "text.h"
 
 namespace bumper {
@@ -154,10 +157,28 @@ const RecordedVehicle* vehicleOf(const Recording& recording, const ImpactEvent& 
   return found == vehicles.end() ? nullptr : &*found;
 }
 
-/// From the open side of the wall, 25° off its normal to where the vehicle came from; the vehicle's
-/// places at all the instants in sight.
+/// Points of a vehicle that should be seen at all the instants: its mass centre, and its corners
+/// half way up.
+std::vector<Eigen::Vector3d> watchedPoints(const RecordedVehicle& vehicle,
+                                           const std::vector<double>& times) {
+  const VehicleParameters& p = vehicle.parameters;
+  std::vector<Eigen::Vector3d> points;
+  for (const double time : times) {
+    const RecordedPose pose = poseAt(vehicle, time).value();
+    points.push_back(pose.position);
+    for (const double x : {p.massCentreToFront, -p.massCentreToRear}) {
+      for (const double y : {-0.5 * p.width, 0.5 * p.width})
+        points.emplace_back(pose.position + pose.orientation * Eigen::Vector3d(x, y, 0.0));
+    }
+  }
+  return points;
+}
+
+/// From the open side of the wall, 25° off its normal to where the vehicle came from, or from where
+/// less of the vehicle is hidden; its places at all the instants in sight.
 SnapshotOptions viewOf(const ImpactEvent& event, const RecordedVehicle& vehicle,
-                       const std::vector<double>& times, const ContactSheetOptions& options) {
+                       const std::vector<double>& times, const ContactSheetOptions& options,
+                       const drawing::SightLines& sight) {
   SnapshotOptions picture;
   picture.width = options.pictureWidth;
   picture.height = options.pictureHeight;
@@ -172,8 +193,20 @@ SnapshotOptions viewOf(const ImpactEvent& event, const RecordedVehicle& vehicle,
   const auto now = poseAt(vehicle, event.time);
   const Eigen::Vector3d tangent = Eigen::Vector3d::UnitZ().cross(event.normal);
   const double side = now && tangent.dot(now->velocity) > 0.0 ? -1.0 : 1.0;
-  picture.orbit.angle = std::atan2(event.normal.y(), event.normal.x()) * degrees + side * 25.0;
-  picture.orbit.elevation = 42.0;
+  const std::vector<Eigen::Vector3d> watched = watchedPoints(vehicle, times);
+  auto least = std::numeric_limits<int>::max();
+  for (const double elevation : {42.0, 26.0, 62.0}) {
+    for (const double turn : {25.0, -25.0, 62.0, -62.0}) {
+      OrbitCamera orbit = picture.orbit;
+      orbit.angle = std::atan2(event.normal.y(), event.normal.x()) * degrees + side * turn;
+      orbit.elevation = elevation;
+      const int hidden = sight.hidden(watched, drawing::eyeOf(orbit, *orbit.centre));
+      if (hidden >= least) continue;
+      least = hidden;
+      picture.orbit = orbit;
+    }
+  }
+  picture.vehicleMeshes = options.vehicleMeshes;
   picture.showTitle = false;
   picture.showPath = false;
   picture.showScaleBar = false;
@@ -197,14 +230,14 @@ std::vector<double> ghostsAt(double now, const RecordedVehicle& vehicle,
 /// A row's pictures with their captions; `top` is the pictures' upper edge.
 void drawPictures(Image& sheet, int top, const Row& row, const RecordedVehicle& vehicle,
                   const Recording& recording, const ContactSheetOptions& options,
-                  SnapshotRenderer& renderer) {
+                  const drawing::SightLines& sight, SnapshotRenderer& renderer) {
   const ImpactEvent& event = hardestOf(row);
   const auto isRecorded = [&](double time) { return poseAt(vehicle, time).has_value(); };
   std::vector<double> times;
   for (const double offset : options.instants) {
     if (isRecorded(event.time + offset)) times.push_back(event.time + offset);
   }
-  SnapshotOptions picture = viewOf(event, vehicle, times, options);
+  SnapshotOptions picture = viewOf(event, vehicle, times, options, sight);
   int left = gap;
   for (const double offset : options.instants) {
     write(sheet, captionOf(offset), left, top + options.pictureHeight + baselineBelow, softInk);
@@ -233,10 +266,12 @@ Image contactSheet(const Scene& scene, const Recording& recording,
   Image sheet(width, height, paper);
 
   SnapshotRenderer renderer(scene);
+  const drawing::SightLines sight(scene);
   SnapshotOptions whole;
   whole.width = width - 2 * gap;
   whole.height = overview;
   whole.title = options.title;
+  whole.vehicleMeshes = options.vehicleMeshes;
   place(sheet, renderer.draw(recording, whole), gap, gap);
 
   int top = gap + overview + gap;
@@ -247,7 +282,7 @@ Image contactSheet(const Scene& scene, const Recording& recording,
     }
     const RecordedVehicle* vehicle = vehicleOf(recording, row.front().event);
     if (vehicle != nullptr && !vehicle->poses.empty())
-      drawPictures(sheet, top, row, *vehicle, recording, options, renderer);
+      drawPictures(sheet, top, row, *vehicle, recording, options, sight, renderer);
     top += options.pictureHeight + captionHeight + gap;
   }
   return sheet;

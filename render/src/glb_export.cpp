@@ -18,6 +18,7 @@
 #include "bumper/response/error.h"
 #include "gltf_file.h"
 #include "run_excerpt.h"
+#include "snapshot_input.h"
 #include "speed_colours.h"
 #include "vehicle_shape.h"
 
@@ -146,7 +147,7 @@ class GlbExport {
     const RecordedVehicle& vehicle = recording_.vehicles()[v];
     std::map<std::array<float, 3>, Surface> surfaces;
     for (const drawing::ShapeTriangle& triangle :
-         drawing::vehicleShape(vehicle.parameters, drawing::paintOf(v))) {
+         drawing::vehicleShape(vehicle, v, options_.vehicleMeshes)) {
       const Vector3f& c = triangle.colour;
       surfaces[{c.x(), c.y(), c.z()}].add(triangle.corners[0], triangle.corners[1],
                                           triangle.corners[2]);
@@ -373,6 +374,8 @@ void writeGlb(const Scene& scene, const Recording& recording, const std::filesys
                               [](const RecordedVehicle& v) { return !v.poses.empty(); }),
           "the recording holds no pose");
   validate(scene);
+  drawing::checkVehicleMeshes(recording, options.vehicleMeshes,
+                              "cannot write " + file.string() + ": GlbOptions");
   GlbExport(scene, recording, options).write(file);
 }
 

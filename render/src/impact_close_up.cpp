@@ -151,11 +151,12 @@ class Plan {
     }
   }
 
-  /// Written by writeLabels(), with its middle some units of text from a point, or where there is
-  /// room near there.
-  void label(const Vector2d& point, const Vector2d& way, const std::string& text,
-             const Colour& colour) {
-    labels_.push_back({at(point), unit_ * onPicture(way), text, colour});
+  /// Written by writeLabels(), with its middle some units of text from the tip of a way from a
+  /// point, or where there is room near there.
+  void label(const Vector2d& point, const Vector2d& way, const Vector2d& beside,
+             const std::string& text, const Colour& colour) {
+    labels_.push_back(
+        {at(point) + unit_ * onPicture(way), unit_ * onPicture(beside), text, colour});
   }
 
   /// Over everything that was drawn.
@@ -196,8 +197,8 @@ class Plan {
 
  private:
   struct Label {
-    Vector2d point;
-    Vector2d way;
+    Vector2d tip;
+    Vector2d beside;
     std::string text;
     Colour colour;
   };
@@ -218,12 +219,12 @@ class Plan {
         // Alternately to either side, farther and farther.
         const double turn = (k % 2 == 0 ? 1.0 : -1.0) * std::ceil(0.5 * k) * std::numbers::pi / 8.0;
         // Wide labels need more room beside than above.
-        Vector2d way = farther * (Eigen::Rotation2Dd(turn) * label.way);
+        Vector2d way = farther * (Eigen::Rotation2Dd(turn) * label.beside);
         way.x() += std::copysign(0.5 * half.x(), way.x()) * std::abs(way.x()) / way.norm();
         const Vector2d centre =
-            (label.point + way).cwiseMax(frame_.min() + margin).cwiseMin(frame_.max() - margin);
+            (label.tip + way).cwiseMax(frame_.min() + margin).cwiseMin(frame_.max() - margin);
         const Box area(Vector2d(centre - half), Vector2d(centre + half));
-        double cost = (label.point + way - centre).norm() + 6.0 * unit_ * (farther - 1.0) +
+        double cost = (label.tip + way - centre).norm() + 6.0 * unit_ * (farther - 1.0) +
                       4.0 * unit_ * std::abs(turn);
         for (const Box& taken : taken_) {
           const Box common = area.intersection(taken);
@@ -267,14 +268,43 @@ class Plan {
   std::vector<Label> labels_;
 };
 
+/// Where along the tangent from the contact the surface that was hit begins and ends, m: walls of
+/// the scene that lie on its line. All of the line if the barrier is none of the scene's.
+std::vector<std::pair<double, double>> surfaceOf(const Situation& s) {
+  constexpr double onLine = 0.02;
+  std::vector<std::pair<double, double>> stretches;
+  bool sceneHasIt = false;
+  for (const auto& [from, to] : s.walls) {
+    const Vector2d a = from - s.contact;
+    const Vector2d b = to - s.contact;
+    const Vector2d way = b - a;
+    const double nearest = std::clamp(-a.dot(way) / std::max(way.squaredNorm(), 1e-12), 0.0, 1.0);
+    sceneHasIt = sceneHasIt || (a + nearest * way).norm() < 5.0 * onLine;
+    if (std::abs(a.dot(s.normal)) > onLine || std::abs(b.dot(s.normal)) > onLine) continue;
+    const double begin = a.dot(s.tangent);
+    const double end = b.dot(s.tangent);
+    stretches.emplace_back(std::min(begin, end), std::max(begin, end));
+  }
+  if (!sceneHasIt) return {{-40.0, 40.0}};
+  std::ranges::sort(stretches);
+  std::vector<std::pair<double, double>> joined;
+  for (const auto& [from, to] : stretches) {
+    if (joined.empty() || from > joined.back().second + onLine)
+      joined.emplace_back(from, to);
+    else
+      joined.back().second = std::max(joined.back().second, to);
+  }
+  return joined;
+}
+
 void addWalls(const Plan& plan, const Situation& s) {
-  // What lies behind the wall, as far as the contact's own surface goes.
-  constexpr double behind = 0.3;
-  const Vector2d along = 40.0 * s.tangent;
-  const Vector2d back = -behind * s.normal;
-  plan.fill(
-      {s.contact - along, s.contact + along, s.contact + along + back, s.contact - along + back},
-      Colour(0.55F, 0.42F, 0.30F, 0.22F));
+  // Which side of the surface is the wall's.
+  const Vector2d back = -0.3 * s.normal;
+  for (const auto& [from, to] : surfaceOf(s)) {
+    const Vector2d begin = s.contact + from * s.tangent;
+    const Vector2d end = s.contact + to * s.tangent;
+    plan.fill({begin, end, end + back, begin + back}, Colour(0.55F, 0.42F, 0.30F, 0.22F));
+  }
   for (const auto& [from, to] : s.walls) plan.line(from, to, 1.6, wallColour);
 }
 
@@ -290,6 +320,7 @@ void addOutline(const Plan& plan, const Situation& s) {
 }
 
 void addArms(Plan& plan, const Situation& s) {
+  const Vector2d none = Vector2d::Zero();
   const Vector2d arm = s.contact - s.centre;
   const double x = arm.dot(s.normal);
   const double y = arm.dot(s.tangent);
@@ -299,9 +330,9 @@ void addArms(Plan& plan, const Situation& s) {
   plan.line(foot, s.contact, 1.2, armColour);
   plan.keepClear(plan.at(s.centre), plan.at(foot));
   plan.keepClear(plan.at(foot), plan.at(s.contact));
-  plan.label(0.5 * (s.centre + foot), 10.0 * s.normal, "y = " + drawing::fixed(y, 2) + " m",
+  plan.label(0.5 * (s.centre + foot), none, 10.0 * s.normal, "y = " + drawing::fixed(y, 2) + " m",
              armColour);
-  plan.label(0.5 * (foot + s.contact), (y < 0.0 ? -10.0 : 10.0) * s.tangent,
+  plan.label(0.5 * (foot + s.contact), none, (y < 0.0 ? -10.0 : 10.0) * s.tangent,
              "x = " + drawing::fixed(x, 2) + " m", armColour);
 }
 
@@ -313,40 +344,41 @@ void addMotion(Plan& plan, const Situation& s) {
     const Vector2d way = longest / fastest * velocity;
     if (way.norm() < 1.0) continue;
     plan.arrow(s.centre, way, 1.9, colour);
-    plan.label(s.centre, way + 11.0 * way.normalized(),
+    plan.label(s.centre, way, 11.0 * way.normalized(),
                std::string(name) + " " + drawing::fixed(velocity.norm(), 1) + " m/s", colour);
   }
   constexpr double axis = 22.0;
   plan.arrow(s.centre, axis * s.forward, 0.9, ink);
-  plan.label(s.centre, (axis + 5.0) * s.forward, "i", ink);
+  plan.label(s.centre, axis * s.forward, 5.0 * s.forward, "i", ink);
   plan.arrow(s.centre, axis * s.left, 0.9, ink);
-  plan.label(s.centre, (axis + 5.0) * s.left, "j", ink);
+  plan.label(s.centre, axis * s.left, 5.0 * s.left, "j", ink);
   plan.disc(s.centre, 3.0, ink);
   plan.disc(s.centre, 1.8, paper);
 }
 
 void addContact(Plan& plan, const Situation& s, bool magnified) {
+  const Vector2d none = Vector2d::Zero();
   constexpr double axis = 30.0;
   plan.arrow(s.contact, axis * s.normal, 1.2, normalColour);
-  plan.label(s.contact, (axis + 6.0) * s.normal, "N", normalColour);
+  plan.label(s.contact, axis * s.normal, 6.0 * s.normal, "N", normalColour);
   if (magnified) {
     plan.arrow(s.contact, axis * s.tangent, 1.2, normalColour);
-    plan.label(s.contact, (axis + 6.0) * s.tangent, "T", normalColour);
+    plan.label(s.contact, axis * s.tangent, 6.0 * s.tangent, "T", normalColour);
     const bool apart = (s.a - s.b).norm() > touching;
     for (const auto& [point, name, side] :
          {std::tuple{s.a, apart ? "a" : "a = b", -1.0}, {s.b, "b", 1.0}}) {
       if (!apart && side > 0.0) continue;
       plan.disc(point, 2.6, ink);
-      plan.label(point, 9.0 * (side * s.tangent - s.normal), name, ink);
+      plan.label(point, none, 9.0 * (side * s.tangent - s.normal), name, ink);
     }
     plan.disc(s.contact, 2.4, paper);
     plan.disc(s.contact, 1.9, mark);
-    plan.label(s.contact, -22.0 * s.normal, apart ? "midpoint" : "contact", mark);
+    plan.label(s.contact, none, -22.0 * s.normal, apart ? "midpoint" : "contact", mark);
   } else {
     if (s.impulse.norm() > 1e-9) {
       const Vector2d push = 44.0 * s.impulse.normalized();
       plan.arrow(s.contact, push, 2.2, mark);
-      plan.label(s.contact, push + 14.0 * (s.tangent + 0.3 * s.normal), "impulse", mark);
+      plan.label(s.contact, push, 14.0 * (s.tangent + 0.3 * s.normal), "impulse", mark);
     }
     plan.disc(s.contact, 3.2, paper);
     plan.disc(s.contact, 2.4, mark);

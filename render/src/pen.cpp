@@ -53,8 +53,14 @@ void Pen::rounded(const Box& area, double radius, const Colour& colour) {
       rim.emplace_back(centres[corner] + r * Vector2d(std::cos(angle), std::sin(angle)));
     }
   }
-  for (std::size_t k = 0; k < rim.size(); ++k)
-    triangle(area.center(), rim[k], rim[(k + 1) % rim.size()], colour);
+  // Two large triangles between two slim ends: slivers across all of a panel are slow to draw.
+  const auto at = [&](std::size_t k) { return rim[k % rim.size()]; };
+  triangle(at(6), at(7), at(20), colour);
+  triangle(at(6), at(20), at(21), colour);
+  for (const std::size_t first : {7U, 21U}) {
+    for (std::size_t k = first + 1; k < first + 13; ++k)
+      triangle(at(first), at(k), at(k + 1), colour);
+  }
 }
 
 void Pen::disc(const Vector2d& centre, double radius, const Colour& colour) {

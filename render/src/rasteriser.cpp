@@ -29,6 +29,7 @@ uniform vec3 sun;
 uniform vec4 wallTint;
 uniform float paleness;
 uniform float opacity;
+uniform float gridPerMetre;
 uniform vec2 gridStart;
 uniform float shadowScale;
 flat out vec4 surfaceColour;
@@ -45,7 +46,7 @@ void main() {
   lighting = vec3(0.60 + 0.10 * out_.z, 0.46 * max(0.0, dot(out_, sun)), colour.a);
   vec3 tinted = mix(colour.rgb, wallTint.rgb, (1.0 - colour.a) * wallTint.a);
   surfaceColour = vec4(mix(tinted, vec3(1.0), paleness), opacity);
-  ground = local.xy + gridStart;
+  ground = local.xy * gridPerMetre + gridStart;
   inShadowMap = (localToSun * vec4(local, 1.0)).xyz * vec3(vec2(shadowScale), 0.5) + 0.5;
 }
 )";
@@ -56,7 +57,6 @@ flat in vec3 lighting;
 in vec2 ground;
 in vec3 inShadowMap;
 uniform sampler2DShadow shadowMap;
-uniform float gridSpacing;
 uniform vec3 hazeColour;
 uniform float hazeStart;
 uniform float hazePerMetre;
@@ -64,8 +64,8 @@ out vec4 drawn;
 
 float gridLine() {
   vec2 perPixel = max(fwidth(ground), vec2(1e-6));
-  vec2 distance = abs(fract(ground / gridSpacing + 0.5) - 0.5) * gridSpacing / perPixel;
-  vec2 line = clamp(1.0 - distance, 0.0, 1.0) * clamp(1.5 - 6.0 * perPixel / gridSpacing, 0.0, 1.0);
+  vec2 distance = abs(fract(ground + 0.5) - 0.5) / perPixel;
+  vec2 line = clamp(1.0 - distance, 0.0, 1.0) * clamp(1.5 - 6.0 * perPixel, 0.0, 1.0);
   return max(line.x, line.y);
 }
 
@@ -404,10 +404,12 @@ void Rasteriser::setUniforms(const Picture& picture) const {
   gl_.Uniform1i(gl_.GetUniformLocation(lit_, "shadowMap"), 0);
   number(lit_, "shadowScale", 0.5 * (shadowSide - 2) / shadowSide);
   // The grid's lines stand at round world coordinates.
-  number(lit_, "gridSpacing", picture.gridSpacing);
-  gl_.Uniform2f(gl_.GetUniformLocation(lit_, "gridStart"),
-                static_cast<float>(std::remainder(picture.localOrigin.x(), picture.gridSpacing)),
-                static_cast<float>(std::remainder(picture.localOrigin.y(), picture.gridSpacing)));
+  const auto start = [&](double origin) {
+    return static_cast<float>(std::remainder(origin, picture.gridSpacing) / picture.gridSpacing);
+  };
+  number(lit_, "gridPerMetre", 1.0 / picture.gridSpacing);
+  gl_.Uniform2f(gl_.GetUniformLocation(lit_, "gridStart"), start(picture.localOrigin.x()),
+                start(picture.localOrigin.y()));
   vector3(lit_, "hazeColour", picture.hazeColour);
   const double hazeDepth = picture.hazeEnd - picture.hazeStart;
   number(lit_, "hazeStart", picture.hazeStart);
@@ -493,11 +495,11 @@ void Rasteriser::drawLayers(const Picture& picture) const {
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   gl_.Disable(GL_BLEND);
+  gl_.Disable(GL_DEPTH_TEST);
+  paint(background);
   gl_.Enable(GL_DEPTH_TEST);
   drawBodies(picture, false);
   drawScene(picture);
-  // Where nothing is in front of it.
-  paint(background);
   gl_.Enable(GL_BLEND);
   drawEdges(picture);
   // Depth first, then colour where it is nearest: ghosts do not show through themselves.
@@ -506,10 +508,12 @@ void Rasteriser::drawLayers(const Picture& picture) const {
   gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 
   // Ribbons pass for nearer than they are: vehicles once more, over their ends.
+  gl_.Disable(GL_BLEND);
   gl_.DepthMask(GL_FALSE);
   paint(ribbons);
   gl_.DepthMask(GL_TRUE);
   drawBodies(picture, false);
+  gl_.Enable(GL_BLEND);
   drawBodies(picture, true);
   paint(markers);
 

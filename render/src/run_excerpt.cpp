@@ -151,6 +151,34 @@ std::vector<double> chosenInstants(const Recording& recording, const Span& span)
   return instants;
 }
 
+/// When a vehicle is drawn, of the instants that were chosen for all: once where it stays while
+/// others move on. The end and the hardest impact come first, as among the instants.
+std::vector<double> uncrowded(const RecordedVehicle& vehicle, const Recording& recording,
+                              const std::vector<double>& instants) {
+  std::vector<RecordedPose> kept;
+  const auto add = [&](double time, double apart) {
+    const auto pose = poseAt(vehicle, time);
+    const bool free = pose && std::ranges::none_of(kept, [&](const RecordedPose& other) {
+                        return (pose->position - other.position).norm() < apart * length(vehicle);
+                      });
+    if (free) kept.push_back(*pose);
+  };
+  const auto last = std::find_if(instants.rbegin(), instants.rend(),
+                                 [&](double time) { return poseAt(vehicle, time).has_value(); });
+  if (last != instants.rend()) add(*last, merged);
+  const auto impacts = recording.impacts();
+  const auto worst = std::ranges::max_element(
+      impacts, {}, [](const RecordedImpact& impact) { return impact.event().deltaV; });
+  if (worst != impacts.end() && std::ranges::binary_search(instants, worst->event().time))
+    add(worst->event().time, merged);
+  for (const double time : instants) add(time, crowded);
+  std::vector<double> times;
+  times.reserve(kept.size());
+  for (const RecordedPose& pose : kept) times.push_back(pose.time);
+  std::ranges::sort(times);
+  return times;
+}
+
 void checkInstants(const Recording& recording, const std::vector<double>& instants) {
   for (const double time : instants) {
     const bool recorded = std::ranges::any_of(
@@ -219,6 +247,7 @@ RunExcerpt excerptOf(const Recording& recording, const SnapshotOptions& options)
     return run;
   }
   std::vector<double> instants = options.instants;
+  const bool chosen = instants.empty() && !options.moment;
   std::ranges::sort(instants);
   run.start = instants.empty() ? whole.start : instants.front();
   run.end = instants.empty() ? whole.end : instants.back();
@@ -231,7 +260,7 @@ RunExcerpt excerptOf(const Recording& recording, const SnapshotOptions& options)
   if (options.moment) {
     std::erase_if(instants, [&](double time) { return time >= run.now; });
     instants.push_back(run.now);
-  } else if (instants.empty()) {
+  } else if (chosen) {
     const Span shown =
         options.view == SnapshotView::three_quarter ? timeOfInterest(recording) : whole;
     instants = chosenInstants(recording, shown);
@@ -240,7 +269,7 @@ RunExcerpt excerptOf(const Recording& recording, const SnapshotOptions& options)
   const auto vehicles = recording.vehicles();
   for (std::size_t v = 0; v < vehicles.size(); ++v) {
     std::size_t drawn = run.poses.size();
-    for (const double time : instants) {
+    for (const double time : chosen ? uncrowded(vehicles[v], recording, instants) : instants) {
       if (const auto pose = poseAt(vehicles[v], time)) run.poses.push_back({v, *pose, false});
     }
     // In a replay a vehicle is solid while it is recorded, and leaves its ghosts behind after.

@@ -126,4 +126,10 @@ double SightLines::visibleShare(const Vector3d& from, const Vector3d& to) const 
   return nearest;
 }
 
+int SightLines::hidden(const std::vector<Vector3d>& points, const Vector3d& eye) const {
+  return static_cast<int>(std::ranges::count_if(points, [&](const Vector3d& point) {
+    return visibleShare(point + 0.02 * (eye - point), eye) < 1.0;
+  }));
+}
+
 }  // namespace bumper::drawing

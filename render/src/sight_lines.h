@@ -24,6 +24,10 @@ class SightLines {
   /// How far one sees from a point to another, as a share of the way: 1 if nothing lies between.
   [[nodiscard]] double visibleShare(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 
+  /// How many of the points cannot be seen from an eye; not for the surfaces that they lie on.
+  [[nodiscard]] int hidden(const std::vector<Eigen::Vector3d>& points,
+                           const Eigen::Vector3d& eye) const;
+
  private:
   using Corners = std::array<Eigen::Vector3d, 3>;
   /// Squares from the first to the last, both included.

@@ -18,11 +18,10 @@ void requireSize(int value, int low, const char* name) {
 
 }  // namespace
 
-void checkOptions(const Recording& recording, const SnapshotOptions& options) {
-  requireSize(options.width, 160, "width");
-  requireSize(options.height, 120, "height");
-  for (const auto& [name, mesh] : options.vehicleMeshes) {
-    const std::string what = "SnapshotOptions::vehicleMeshes: '" + name + "'";
+void checkVehicleMeshes(const Recording& recording, const VehicleMeshes& meshes,
+                        const std::string& where) {
+  for (const auto& [name, mesh] : meshes) {
+    const std::string what = where + "::vehicleMeshes: '" + name + "'";
     if (std::ranges::find(recording.vehicles(), name, &RecordedVehicle::name) ==
         recording.vehicles().end())
       throw Error(what + " is no vehicle of the recording");
@@ -33,6 +32,12 @@ void checkOptions(const Recording& recording, const SnapshotOptions& options) {
       throw Error(what + ": " + error.what());
     }
   }
+}
+
+void checkOptions(const Recording& recording, const SnapshotOptions& options) {
+  requireSize(options.width, 160, "width");
+  requireSize(options.height, 120, "height");
+  checkVehicleMeshes(recording, options.vehicleMeshes, "SnapshotOptions");
 }
 
 }  // namespace bumper::drawing

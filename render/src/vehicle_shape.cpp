@@ -227,4 +227,27 @@ std::vector<ShapeTriangle> vehicleShape(const VehicleParameters& vehicle, const 
   return Builder(vehicle, paint).build();
 }
 
+std::vector<ShapeTriangle> vehicleShape(const VehicleParameters& vehicle, const Scene& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& vertex : mesh.vertices) box.extend(vertex);
+  const Vector3d shift(
+      0.5 * (vehicle.massCentreToFront - vehicle.massCentreToRear) - box.center().x(),
+      -box.center().y(), -vehicle.massCentreHeight - box.min().z());
+  std::vector<ShapeTriangle> shape;
+  shape.reserve(mesh.triangles.size());
+  for (const Scene::Triangle& triangle : mesh.triangles) {
+    ShapeTriangle placed{{}, mesh.meshes[triangle.mesh].colour};
+    for (std::size_t k = 0; k < 3; ++k) placed.corners.at(k) = mesh.corner(triangle, k) + shift;
+    shape.push_back(placed);
+  }
+  return shape;
+}
+
+std::vector<ShapeTriangle> vehicleShape(const RecordedVehicle& vehicle, std::size_t index,
+                                        const VehicleMeshes& meshes) {
+  const auto own = meshes.find(vehicle.name);
+  return own == meshes.end() ? vehicleShape(vehicle.parameters, paintOf(index))
+                             : vehicleShape(vehicle.parameters, *own->second);
+}
+
 }  // namespace bumper::drawing

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "bumper/render/recording.h"
+#include "bumper/render/vehicle_meshes.h"
 #include "bumper/response/vehicle_parameters.h"
 
 namespace bumper::drawing {
@@ -20,6 +22,13 @@ struct ShapeTriangle {
 /// with windows, wheels, pale lamps in front, red ones behind.
 std::vector<ShapeTriangle> vehicleShape(const VehicleParameters& vehicle,
                                         const Eigen::Vector3f& paint);
+
+/// A mesh where VehicleMeshes places it.
+std::vector<ShapeTriangle> vehicleShape(const VehicleParameters& vehicle, const Scene& mesh);
+
+/// The vehicle with an index in the recording: its own mesh if it has one, else a car.
+std::vector<ShapeTriangle> vehicleShape(const RecordedVehicle& vehicle, std::size_t index,
+                                        const VehicleMeshes& meshes);
 
 /// The paint of the vehicle with an index in the recording.
 Eigen::Vector3f paintOf(std::size_t vehicle);

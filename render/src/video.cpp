@@ -28,12 +28,17 @@ struct Kind {
 const std::string evenAndBroadcast =
     "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p";
 
+// The fastest preset, and of what it leaves out that which makes films of still backgrounds small:
+// less time than "veryfast" takes, and no larger files.
+const std::string fastAndSmall =
+    "mbtree=1:rc-lookahead=10:bframes=3:cabac=1:deblock=1,0,0:scenecut=40";
+
 std::vector<Kind> kinds() {
   return {{".mp4",
            "mp4",
            240.0,
            {"-vf", evenAndBroadcast, "-colorspace", "bt709", "-c:v", "libx264", "-preset",
-            "veryfast", "-crf", "20", "-movflags", "+faststart"}},
+            "ultrafast", "-x264-params", fastAndSmall, "-crf", "20", "-movflags", "+faststart"}},
           {".webm",
            "webm",
            240.0,

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 #include <vector>
 
@@ -39,6 +40,19 @@ constexpr float ghostPaleness = 0.45F;
 
 Colour withOpacity(const Vector3f& colour, float opacity) {
   return {colour.x(), colour.y(), colour.z(), opacity};
+}
+
+/// Whether nothing between the vertices can be seen: all lie beyond one side of the picture.
+bool isOutside(std::initializer_list<FlatVertex> vertices) {
+  for (const std::size_t axis : {0U, 1U}) {
+    for (const float sign : {-1.0F, 1.0F}) {
+      const auto isBeyond = [&](const FlatVertex& vertex) {
+        return sign * vertex.clip.at(axis) > vertex.clip[3];
+      };
+      if (std::ranges::all_of(vertices, isBeyond)) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -143,23 +157,8 @@ void WorldPainter::addFarMarker(const DrawnPose& drawn, const Colour& colour) {
 Range WorldPainter::addBody(const RecordedVehicle& vehicle, std::size_t index,
                             const SnapshotOptions& options) {
   Range range{picture_.bodies.size(), 0};
-  const auto own = options.vehicleMeshes.find(vehicle.name);
-  if (own == options.vehicleMeshes.end()) {
-    for (const ShapeTriangle& triangle : vehicleShape(vehicle.parameters, paintOf(index)))
-      addSurface(triangle.corners, triangle.colour, false, picture_.bodies);
-  } else {
-    const Scene& mesh = *own->second;
-    Eigen::AlignedBox3d box;
-    for (const Vector3d& vertex : mesh.vertices) box.extend(vertex);
-    const VehicleParameters& p = vehicle.parameters;
-    const Vector3d shift(0.5 * (p.massCentreToFront - p.massCentreToRear) - box.center().x(),
-                         -box.center().y(), -p.massCentreHeight - box.min().z());
-    for (const Scene::Triangle& triangle : mesh.triangles) {
-      std::array<Vector3d, 3> corners;
-      for (std::size_t k = 0; k < 3; ++k) corners[k] = mesh.corner(triangle, k) + shift;
-      addSurface(corners, mesh.meshes[triangle.mesh].colour, false, picture_.bodies);
-    }
-  }
+  for (const ShapeTriangle& triangle : vehicleShape(vehicle, index, options.vehicleMeshes))
+    addSurface(triangle.corners, triangle.colour, false, picture_.bodies);
   range.count = picture_.bodies.size() - range.first;
   return range;
 }
@@ -221,6 +220,7 @@ void WorldPainter::addPath(const RecordedVehicle& vehicle, const std::vector<Rec
   for (std::size_t k = 1; k < stations.size(); ++k) {
     const Station& a = stations[k - 1];
     const Station& b = stations[k];
+    if (isOutside({a.left, a.right, b.left, b.right})) continue;
     picture_.ribbons.insert(picture_.ribbons.end(),
                             {a.right, b.right, b.left, a.right, b.left, a.left});
   }

@@ -186,6 +186,57 @@ TEST_F(Tools, TheSceneIsFoundBesideTheRecording) {
   EXPECT_EQ(run("bumper-replay glb run.jsonl found.glb --scene elsewhere/rail.obj").words, "");
 }
 
+TEST_F(Tools, VehiclesAreDrawnFromTheirMeshFiles) {
+  // A green slab, 4 m along y: turned by 90° to the right it lies along the vehicle.
+  Scene slab;
+  slab.vertices = {{0.0, 0.0, 1.0}, {1.5, 0.0, 1.0}, {1.5, 4.0, 1.0}, {0.0, 4.0, 1.0}};
+  slab.meshes = {{"slab", "paint", {0.1F, 0.9F, 0.1F}}};
+  slab.triangles = {{{0, 1, 2}, 0}, {{0, 2, 3}, 0}};
+  saveScene(slab, folder_.path() / "slab.obj");
+  const auto greens = [&](const std::string& options) {
+    const Outcome outcome =
+        run("bumper-replay picture run.jsonl p.png --camera 0,0,30,0.001,0,0 " + options);
+    EXPECT_EQ(outcome.code, done) << outcome.words;
+    const Image image = readPng(folder_.path() / "p.png");
+    int count = 0;
+    for (const Rgb& pixel : image.pixels())
+      count += pixel.green > pixel.red + 60 && pixel.green > pixel.blue + 60 ? 1 : 0;
+    return count;
+  };
+  const std::string mesh = "--vehicle-mesh-up z --vehicle-mesh-turn -90 --vehicle-mesh ";
+  const int legend = greens("");
+  EXPECT_GT(greens(mesh + "slab.obj"), legend + 1000);
+  EXPECT_GT(greens(mesh + "saloon=slab.obj"), legend + 1000);
+
+  expectError("bumper-replay picture run.jsonl p.png --vehicle-mesh none.glb", "none.glb");
+  expectError("bumper-replay picture run.jsonl p.png --vehicle-mesh slab.obj", "--vehicle-mesh-up");
+  expectError("bumper-replay picture run.jsonl p.png --vehicle-mesh lorry=slab.obj",
+              "lorry=slab.obj");
+
+  // A recording may name it itself; if it is gone, the rest is drawn.
+  Recording named;
+  const RecordedVehicle saloon = testRailRun().vehicles()[0];
+  const RunParameters settings{{"mesh", "slab.obj"}, {"mesh_up", "z"}, {"mesh_turn_deg", -90.0}};
+  const std::size_t copy = named.addVehicle(saloon.name, saloon.parameters, settings);
+  for (const RecordedPose& pose : saloon.poses) named.addPose(copy, pose);
+  RunDescription described{.scene = referenceTo(testRail())};
+  described.scene.builtIn = "test_rail";
+  writeRecording(named, recording_, described);
+  EXPECT_GT(greens(""), legend + 1000);
+  std::filesystem::remove(folder_.path() / "slab.obj");
+  EXPECT_EQ(run("bumper-replay picture run.jsonl p.png").code, done);
+  EXPECT_THAT(run("bumper-replay glb run.jsonl run.glb").words, HasSubstr("without its mesh"));
+  EXPECT_TRUE(exists("run.glb"));
+}
+
+TEST_F(Tools, AnExamplesOwnSceneIsFoundAgain) {
+  ASSERT_EQ(run("break_through result").code, done);
+  std::filesystem::rename(folder_.path() / "result", folder_.path() / "moved");
+  const Outcome outcome = run("bumper-replay glb moved/run.jsonl moved/run.glb");
+  EXPECT_EQ(outcome.code, done);
+  EXPECT_EQ(outcome.words, "");
+}
+
 TEST_F(Tools, PlotsAreDrawn) {
   if (std::system("gnuplot --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "gnuplot is missing";
   const Outcome outcome = run("bumper-plot run.jsonl plots --sae");
@@ -211,12 +262,14 @@ TEST_F(Tools, ADriveIsRecordedWithItsScene) {
   ground.triangles.push_back({{first, first + 2, first + 3}, 0});
   saveScene(ground, folder_.path() / "place.obj");
   const Outcome drive =
-      run("bumper-drive place.obj --up z --start 0,0 --speed 20 --duration 2.5 --out result");
+      run("bumper-drive place.obj --up z --start 0,0 --speed 20 --duration 2.5 --out result "
+          "--vehicle-mesh place.obj --vehicle-mesh-up z");
   ASSERT_EQ(drive.code, done) << drive.words;
   RunDescription described;
   const Recording recording = readRecording(folder_.path() / "result" / "run.jsonl", &described);
   EXPECT_GE(recording.impacts().size(), 1U);
   EXPECT_EQ(described.scene.file, "../place.obj");
+  EXPECT_EQ(std::get<std::string>(recording.vehicles()[0].settings.at("mesh")), "../place.obj");
   // Found again, and the same.
   EXPECT_EQ(run("bumper-replay glb result/run.jsonl result/run.glb").words, "");
 }

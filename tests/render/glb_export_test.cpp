@@ -11,6 +11,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
@@ -123,6 +124,30 @@ TEST_F(GlbExport, IsExactFarFromTheWorldsOrigin) {
     const Vector3d place = middle + toVector(saloon.mPositionKeys[k].mValue);
     ASSERT_LT((place - poses[k].position).norm(), allowed) << k;
   }
+}
+
+TEST_F(GlbExport, DrawsAVehicleAsItsOwnMesh) {
+  // 4 m long, anywhere in its file; the saloon's outline has its middle 0.15 m behind the mass
+  // centre, which is 0.56 m above the ground.
+  auto slab = std::make_shared<Scene>();
+  slab->vertices = {{7.0, 3.0, 5.0}, {11.0, 3.0, 5.0}, {11.0, 4.0, 5.0}, {7.0, 4.0, 5.0}};
+  slab->meshes = {{"slab", "paint", {0.1F, 0.9F, 0.1F}}};
+  slab->triangles = {{{0, 1, 2}, 0}, {{0, 2, 3}, 0}};
+  GlbOptions options;
+  options.vehicleMeshes["saloon"] = slab;
+  const aiScene& read = readBack(testRail(), testRailRun(), options);
+  const aiNode* node = read.mRootNode->FindNode("saloon");
+  ASSERT_NE(node, nullptr);
+  ASSERT_EQ(node->mNumMeshes, 1U);
+  const aiMesh& mesh = *read.mMeshes[node->mMeshes[0]];
+  Eigen::AlignedBox3d box;
+  for (unsigned k = 0; k < mesh.mNumVertices; ++k) box.extend(toVector(mesh.mVertices[k]));
+  EXPECT_LT((box.min() - Vector3d(-2.15, -0.5, -0.56)).norm(), 1e-5);
+  EXPECT_LT((box.max() - Vector3d(1.85, 0.5, -0.56)).norm(), 1e-5);
+
+  options.vehicleMeshes["lorry"] = slab;
+  EXPECT_THAT([&] { writeGlb(testRail(), testRailRun(), file_, options); },
+              ThrowsMessage<Error>(HasSubstr("'lorry' is no vehicle")));
 }
 
 TEST_F(GlbExport, TurnsTheShorterWayBetweenKeys) {

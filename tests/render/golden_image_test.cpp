@@ -11,6 +11,7 @@
 #include "bumper/render/image.h"
 #include "bumper/render/image_compare.h"
 #include "bumper/render/image_matcher.h"
+#include "bumper/render/impact_close_up.h"
 #include "bumper/render/snapshot.h"
 #include "bumper/scenes/paper_scenes.h"
 #include "synthetic_run.h"
@@ -89,6 +90,34 @@ TEST_P(GoldenImage, isMissedByCarsThatAreTurned) {
 
 INSTANTIATE_TEST_SUITE_P(PaperScenes, GoldenImage, ::testing::ValuesIn(cases()),
                          [](const auto& instance) { return instance.param.name; });
+
+/// The close-up of an impact, of one that is straight and one that slides.
+Image closeUp(const Recording& run, std::size_t impact, OffscreenBackend backend) {
+  return impactCloseUp(testRail(), run, impact, {.width = 800, .height = 450}, backend);
+}
+
+class GoldenCloseUp : public ::testing::TestWithParam<std::size_t> {
+ protected:
+  std::string name_ = "close_up_" + std::to_string(GetParam() + 1);
+  std::filesystem::path golden_ = std::filesystem::path(GOLDEN_FOLDER) / (name_ + ".png");
+};
+
+TEST_P(GoldenCloseUp, isMatched) {
+  for (const OffscreenBackend backend : builtBackends()) {
+    const std::string folder = backend == OffscreenBackend::osmesa ? "/osmesa" : "/egl";
+    EXPECT_THAT(closeUp(testing::cornerHits(), GetParam(), backend),
+                MatchesGolden(golden_, {.output = OUTPUT_FOLDER + folder}));
+  }
+}
+
+TEST_P(GoldenCloseUp, isMissedByACarThatIsTurned) {
+  const Recording other = testing::turned(testing::cornerHits(), std::numbers::pi / 180.0);
+  EXPECT_FALSE(
+      compareImages(readPng(golden_), closeUp(other, GetParam(), OffscreenBackend::automatic))
+          .isSame);
+}
+
+INSTANTIATE_TEST_SUITE_P(TestRail, GoldenCloseUp, ::testing::Values(0U, 1U));
 
 /// Marks that go, one at a time, from a picture that otherwise stays the same.
 TEST(GoldenTestRail, isMissedWithoutAnyOneMark) {

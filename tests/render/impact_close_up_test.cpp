@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 
 #include "bumper/render/image_compare.h"
@@ -107,6 +108,28 @@ TEST(ImpactCloseUp, showsTheLineOfInterference) {
   const Image inside = impactCloseUp(wall(), hit({1.0, -0.75}), 0);
   const Image touch = impactCloseUp(wall(), hit({2.05, -0.85}), 0);
   EXPECT_GT(compareImages(inside, touch).worstTileShare, 0.1);
+}
+
+/// Pixels of the diagram in the shade that lies behind the surface which was hit.
+Eigen::AlignedBox2d shadeOf(const Scene& scene, const Recording& run) {
+  const auto isShade = [](const Rgb& pixel) {
+    return std::abs(pixel.red - 221) < 4 && std::abs(pixel.green - 213) < 4 &&
+           std::abs(pixel.blue - 205) < 4;
+  };
+  return extentOf(impactCloseUp(scene, run, 0), isShade);
+}
+
+TEST(ImpactCloseUp, shadesTheWallAsFarAsItGoes) {
+  const Recording run = hit({2.05, -0.85});
+  const double scale = barLength(impactCloseUp(wall(), run, 0));
+  // The contact is at x = 22.05 m.
+  const Scene ending = straightWall({0.0, 29.15}, {23.05, 29.15}, 1.0);
+  const Eigen::AlignedBox2d outline = extentOf(impactCloseUp(ending, run, 0), isOutline);
+  EXPECT_NEAR(shadeOf(ending, run).max().x(), outline.max().x() + scale, 4.0);
+  EXPECT_GT(shadeOf(wall(), run).max().x(), diagramWidth - 4);
+  // A barrier that is not in the scene has no end.
+  const Scene elsewhere = straightWall({0.0, 80.0}, {60.0, 80.0}, 1.0);
+  EXPECT_GT(shadeOf(elsewhere, run).max().x(), diagramWidth - 4);
 }
 
 TEST(ImpactCloseUp, rejectsWhatCannotBeDrawn) {

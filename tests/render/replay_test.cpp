@@ -7,11 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <vector>
 
 #include "bumper/render/contact_sheet.h"
 #include "bumper/response/error.h"
 #include "bumper/scenes/paper_scenes.h"
+#include "find_in_image.h"
 #include "synthetic_run.h"
 #include "temporary_folder.h"
 
@@ -141,6 +143,39 @@ TEST(ContactSheet, HasARowForEachImpactButNotForItsFollowers) {
   EXPECT_GT(withoutFollower - oneRow, 140);  // a row of pictures
   EXPECT_GT(all - withoutFollower, 0);       // a line of text
   EXPECT_LT(all - withoutFollower, 50);
+}
+
+TEST(ContactSheet, LooksPastWhatHidesTheVehicle) {
+  // A car that stands at a wall on its left, which faces −y.
+  Recording run = standingVehicle({20.0, 30.0}, 0.0);
+  ImpactEvent event;
+  event.vehicle = "saloon";
+  event.barrier = "wall";
+  event.contact = {22.05, 30.85, 0.56};
+  event.normal = {0.0, -1.0, 0.0};
+  event.arm = {2.05, 0.85};
+  event.deltaV = event.approachSpeed = 4.0;
+  run.addImpact(event);
+  const Scene open = straightWall({0.0, 30.85}, {60.0, 30.85}, 1.0);
+  // A bridge over the ground before it, which lies in the way at 42° above the horizontal.
+  Scene bridged = open;
+  const auto first = static_cast<std::uint32_t>(bridged.vertices.size());
+  for (const auto& [x, y] : {std::pair(0.0, 24.0), {45.0, 24.0}, {45.0, 28.0}, {0.0, 28.0}})
+    bridged.vertices.emplace_back(x, y, 4.0);
+  bridged.triangles.push_back({{first, first + 1, first + 2}, 0});
+  bridged.triangles.push_back({{first, first + 2, first + 3}, 0});
+
+  const ContactSheetOptions options{.instants = {0.0}};
+  const auto paintIn = [&](const Scene& scene) {
+    const Image sheet = contactSheet(scene, run, options);
+    // The row's picture stands below the overview.
+    const auto begin = static_cast<std::size_t>(sheet.width()) *
+                       static_cast<std::size_t>(sheet.height() - options.pictureHeight - 40);
+    return std::ranges::count_if(sheet.pixels() | std::views::drop(begin), isPaint);
+  };
+  const auto seen = paintIn(open);
+  ASSERT_GT(seen, 1000);
+  EXPECT_GT(paintIn(bridged), seen / 2);
 }
 
 TEST(ContactSheet, PlacesOutsideTheRunAreEmpty) {

@@ -279,6 +279,23 @@ TEST(TopView, instantsChooseWhereTheCarIsAndWhatIsFramed) {
   EXPECT_LT((carIn(image).centroid - *place - Vector2d(-0.15 * scale, 0.0)).norm(), placeTolerance);
 }
 
+TEST(TopView, aVehicleThatHardlyMovesIsDrawnOnce) {
+  // Its ghosts would lie over it while another goes by.
+  Recording run;
+  const std::size_t slow = run.addVehicle("slow", testing::saloon());
+  const std::size_t fast = run.addVehicle("fast", testing::saloon());
+  for (int k = 0; k <= 40; ++k) {
+    const double time = 0.1 * k;
+    run.addPose(slow, {.time = time, .position = {20.0 + 0.1 * time, 30.0, 0.56}});
+    run.addPose(fast, {.time = time, .position = {15.0 * time, 40.0, 0.56}});
+  }
+  const SnapshotOptions options = bare();
+  const Image image = renderSnapshot(testRail(), run, options);
+  const double scale = TopView(run, options).scale;
+  const auto paint = std::ranges::count_if(image.pixels(), isPaint);
+  EXPECT_GT(static_cast<double>(paint), 0.4 * 4.40 * 1.70 * scale * scale);
+}
+
 TEST(TopView, theScaleBarIsOfRoundLengthAndToScale) {
   const Recording run = testing::testRailRun();
   const SnapshotOptions options;

@@ -132,6 +132,39 @@ Recording courseRun() {
   return run;
 }
 
+Recording cornerHits() {
+  struct Hit {
+    Vector2d onWall;
+    Vector2d normal;
+    double heading;
+    Vector2d arm;
+    double deltaV;
+    double friction;  ///< along z × normal, as a share of the normal impulse
+  };
+  const std::vector<Hit> hits = {
+      {{42.334, -0.900}, {-0.10453, 0.99452}, 0.0, {2.03, -0.83}, 2.0, 0.3},
+      {{66.900, 3.242}, {-0.98163, -0.19081}, 0.105, {2.02, 0.50}, 24.0, -0.05}};
+  Recording run;
+  const std::size_t vehicle = run.addVehicle("saloon", saloon());
+  double time = 1.0;
+  for (const Hit& hit : hits) {
+    const Vector2d ahead(std::cos(hit.heading), std::sin(hit.heading));
+    const Vector2d left(-ahead.y(), ahead.x());
+    const Vector2d place = hit.onWall - hit.arm.x() * ahead - hit.arm.y() * left;
+    run.addPose(vehicle, poseOf(time, place, hit.heading, 25.0 * ahead, 0.0));
+    ImpactEvent event = eventAt(time, hit.onWall, hit.normal, hit.deltaV);
+    event.arm = hit.arm;
+    event.impulseTangent = hit.friction * event.impulseNormal;
+    const Vector2d tangent(-hit.normal.y(), hit.normal.x());
+    event.velocityAfter << 25.0 * ahead + hit.deltaV * (hit.normal + hit.friction * tangent), 0.0;
+    event.speedBefore = 25.0;
+    event.speedAfter = event.velocityAfter.norm();
+    run.addImpact(event);
+    time += 1.0;
+  }
+  return run;
+}
+
 Recording standingVehicle(const Vector2d& place, double heading) {
   Recording run;
   run.addPose(run.addVehicle("saloon", saloon()), poseOf(0.0, place, heading, {0.0, 0.0}, 0.0));

@@ -16,6 +16,10 @@ Recording testRailRun();
 /// A made-up run on the course: through a bend, into its wall and along it.
 Recording courseRun();
 
+/// Two made-up impacts on the test rail by plain geometry: the right front corner slides along the
+/// side wall; the front's left half meets the end wall, by the corner of the two.
+Recording cornerHits();
+
 /// One vehicle that stands at a place with a heading, rad, and nothing else.
 Recording standingVehicle(const Eigen::Vector2d& place, double heading);
 

@@ -6,6 +6,7 @@
 
 #include "bumper/render/image.h"
 #include "bumper/render/recording.h"
+#include "bumper/render/vehicle_meshes.h"
 #include "bumper/scenes/scene.h"
 
 namespace bumper {
@@ -16,12 +17,13 @@ struct ContactSheetOptions {
   std::size_t impacts = 8;  ///< rows at most, 1 to 40: those with the largest Δv
   /// s from the impact, ascending, 1 to 12 of them: one picture each.
   std::vector<double> instants{-0.15, 0.0, 0.15, 0.4};
-  std::string title{};  ///< empty: the scene's name
+  std::string title{};            ///< empty: the scene's name
+  VehicleMeshes vehicleMeshes{};  ///< of the vehicles that are not drawn as a car-like body
 };
 
 /// One picture that tells the whole run: on top the run from above, below it a row for each impact,
 /// in the order of time, with its number, time, Δv, speeds and yaw rates, and pictures of the
-/// vehicle at instants around it, from the open side of the wall. An impact within 0.3 s of a
+/// vehicle at instants around it, from where least of it is hidden. An impact within 0.3 s of a
 /// harder one of the same vehicle is named in that one's row instead. Earlier instants are ghosts.
 /// Where the run has not begun or is over, a place is empty.
 ///

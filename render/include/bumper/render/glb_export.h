@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bumper/render/recording.h"
+#include "bumper/render/vehicle_meshes.h"
 #include "bumper/scenes/scene.h"
 
 namespace bumper {
@@ -17,8 +18,9 @@ struct GlbOptions {
   /// Keys of a vehicle's animation, 1/s, > 0: poses that follow the last kept one more closely are
   /// left out, but not the last of all. Infinity keeps every pose.
   double keysPerSecond = std::numeric_limits<double>::infinity();
-  bool showPath = true;     ///< ribbons on the ground, coloured by speed
-  bool showImpacts = true;  ///< a pin at each, with an arrow along the wall's normal
+  bool showPath = true;           ///< ribbons on the ground, coloured by speed
+  bool showImpacts = true;        ///< a pin at each, with an arrow along the wall's normal
+  VehicleMeshes vehicleMeshes{};  ///< of the vehicles that are not drawn as a car-like body
 };
 
 /// Writes scene, moving vehicles and impacts as one binary glTF 2.0 file that any viewer plays.
@@ -34,9 +36,9 @@ struct GlbOptions {
 /// numbers. Arrows are as long as in a snapshot of the whole run; impacts below a tenth of the
 /// hardest's Δv are small balls. The camera `behind <vehicle>` rides with each vehicle.
 ///
-/// Throws Error, naming the file, on an invalid scene, an option outside its range,
-/// a recording without poses, more than 4 GB, or a file that cannot be written; what stood there
-/// before is then still whole.
+/// Throws Error, naming the file, on an invalid scene or vehicle mesh, an option outside its
+/// range, a recording without poses, more than 4 GB, or a file that cannot be written; what stood
+/// there before is then still whole.
 void writeGlb(const Scene& scene, const Recording& recording, const std::filesystem::path& file,
               const GlbOptions& options = {});
 

@@ -26,7 +26,7 @@ struct ReplayTiming {
 /// How a replay looks and what it costs.
 struct ReplayOptions {
   ReplayTiming timing;
-  /// Of every frame; `moment` is set by the replay. 960 × 540 pixels: a frame takes about 56 ms of
+  /// Of every frame; `moment` is set by the replay. 960 × 540 pixels: a frame takes about 45 ms of
   /// processor time with its encoding, a half more at 1280 × 720. A top view shows the whole run
   /// all the time.
   SnapshotOptions picture = [] {

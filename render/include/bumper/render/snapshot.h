@@ -2,8 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +9,7 @@
 #include "bumper/render/image.h"
 #include "bumper/render/offscreen_backend.h"
 #include "bumper/render/recording.h"
+#include "bumper/render/vehicle_meshes.h"
 #include "bumper/scenes/scene.h"
 
 namespace bumper {
@@ -48,7 +47,8 @@ struct FixedCamera {
   double fieldOfView = 40.0;              ///< degrees from the top to the bottom, 1 to 120
 };
 
-/// On a circle around a point, looking at it. Shows 32° from the top to the bottom.
+/// On a circle around a point, looking at it, with the light from its side. Shows 32° from the top
+/// to the bottom.
 struct OrbitCamera {
   enum class Around {
     hardest_impact,  ///< of all that the picture frames; without impacts the vehicle
@@ -69,8 +69,8 @@ struct SnapshotOptions {
   SnapshotView view = SnapshotView::top;
   /// s: when vehicles are drawn, all but the last as ghosts. The run is drawn from the first to the
   /// last of them. Empty: the whole run, with the end and the hardest impact, and as far as there
-  /// is room the start, the other impacts, and instants at even distances between them; in a
-  /// three-quarter view the start and the end of what it frames.
+  /// is room the start, the other impacts, and instants at even distances between them, a vehicle
+  /// that stays only once; in a three-quarter view the start and the end of what it frames.
   std::vector<double> instants;
   /// s: a frame of a replay. Vehicles stand where they are then, solid; impacts and the path are
   /// shown up to then, and ghosts at those of `instants` that lie before it, none if there are
@@ -81,12 +81,8 @@ struct SnapshotOptions {
   ChaseCamera chase;
   FixedCamera fixed;
   OrbitCamera orbit;
-  /// By vehicle name: what to draw instead of the car-like body, for instance from loadScene(). Its
-  /// x axis points forward and z up. It keeps its size and is placed with the middle of its
-  /// bounding box in the middle of the vehicle's outline, and with its lowest point on the ground,
-  /// massCentreHeight below the mass centre.
-  std::map<std::string, std::shared_ptr<const Scene>> vehicleMeshes;
-  std::string title;  ///< empty: the scene's name
+  VehicleMeshes vehicleMeshes;  ///< of the vehicles that are not drawn as a car-like body
+  std::string title;            ///< empty: the scene's name
   bool showVehicles = true;
   bool showPath = true;     ///< a ribbon coloured by speed, with its legend
   bool showImpacts = true;  ///< marks; the strong with number, the wall's normal and Δv
