@@ -433,8 +433,6 @@ double CollisionStep::quietTime(const Wall& wall, double h) const {
   const auto include = [&](const ContactPoint& contact) {
     const Vector2 velocity = velocityAt(motion_, contact.arm);
     const double along = tangent.dot(contact.point);
-    const double slip = tangent.dot(velocity);
-    const double left = slip > 0.0 ? overlap.end - along : along - overlap.start;
     const bool isCorner =
         !overlap.byEnd && std::min(along - overlap.start, overlap.end - along) > touchTolerance;
     // Turning draws a corner away from the wall as long as it lies on the wall's side of the mass
@@ -443,7 +441,6 @@ double CollisionStep::quietTime(const Wall& wall, double h) const {
     if (!isCorner || highest > 0.0) {
       time = std::min(time, leastTime(unseenDepth, -overlap.normal.dot(velocity), bend));
     }
-    if (isCorner && slip != 0.0) time = std::min(time, left / std::abs(slip));
   };
   include(firstPoint(motion_.position, overlap));
   const ContactPoints points = touchingPoints(outline_, place_, wall.segment, overlap);
