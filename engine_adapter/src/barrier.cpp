@@ -106,6 +106,7 @@ void Barrier::keepSettings(const ResponseSettings& usual) {
     }
     own_.push_back(settings);
   }
+  report_.memory += sizeof(Barrier) + own_.capacity() * sizeof(ResponseSettings);
 }
 
 double Barrier::clearanceAtLeast(const Eigen::Vector3d& place, double height) const {
