@@ -21,7 +21,10 @@ void requireSize(int value, int low, const char* name) {
 void checkVehicleMeshes(const Recording& recording, const VehicleMeshes& meshes,
                         const std::string& where) {
   for (const auto& [name, mesh] : meshes) {
-    const std::string what = where + "::vehicleMeshes: '" + name + "'";
+    std::string what = where;
+    what += "::vehicleMeshes: '";
+    what += name;
+    what += "'";
     if (std::ranges::find(recording.vehicles(), name, &RecordedVehicle::name) ==
         recording.vehicles().end())
       throw Error(what + " is no vehicle of the recording");

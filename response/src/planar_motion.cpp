@@ -1,6 +1,7 @@
 #include "bumper/response/planar_motion.h"
 
 #include <cmath>
+#include <utility>
 
 namespace bumper {
 
@@ -9,7 +10,7 @@ Vector2 rotated(const Vector2& v, double angle) {
   return Placement(Vector2::Zero(), angle).turned(v);
 }
 
-Placement::Placement(const Vector2& itsPosition, double yaw) : position(itsPosition) {
+Placement::Placement(Vector2 itsPosition, double yaw) : position(std::move(itsPosition)) {
   if (yaw == 0.0) return;  // often, and dear otherwise
   cosine = std::cos(yaw);
   sine = std::sin(yaw);

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <vector>
 
 #include "bumper/render/contact_sheet.h"
@@ -169,9 +168,9 @@ TEST(ContactSheet, LooksPastWhatHidesTheVehicle) {
   const auto paintIn = [&](const Scene& scene) {
     const Image sheet = contactSheet(scene, run, options);
     // The row's picture stands below the overview.
-    const auto begin = static_cast<std::size_t>(sheet.width()) *
-                       static_cast<std::size_t>(sheet.height() - options.pictureHeight - 40);
-    return std::ranges::count_if(sheet.pixels() | std::views::drop(begin), isPaint);
+    const auto begin =
+        static_cast<std::ptrdiff_t>(sheet.width()) * (sheet.height() - options.pictureHeight - 40);
+    return std::count_if(sheet.pixels().begin() + begin, sheet.pixels().end(), isPaint);
   };
   const auto seen = paintIn(open);
   ASSERT_GT(seen, 1000);

@@ -19,7 +19,7 @@ Vector2 rotated(const Vector2& v, double angle);
 /// A place in the plane, m, and a heading, rad, whose sine and cosine are taken once.
 struct Placement {
   Placement() = default;
-  Placement(const Vector2& itsPosition, double yaw);
+  Placement(Vector2 itsPosition, double yaw);
 
   Vector2 position = Vector2::Zero();
   double cosine = 1.0;
