@@ -102,8 +102,8 @@ class Responder {
   /// Call after the application has moved or changed a barrier's geom: its walls are read anew. Of
   /// a barrier made from a scene, or whose shape is given as one, the scene as it is now takes the
   /// old one's place; its own geom is then a new one. Id, name and settings stay, and so does what
-  /// vehicles are doing with it; one that it was moved into is eased out, not pushed. The last step's
-  /// events are void. Costs as much as adding it. Throws Error as addBarrier() does.
+  /// vehicles are doing with it; one that it was moved into is eased out, not pushed. The last
+  /// step's events are void. Costs as much as adding it. Throws Error as addBarrier() does.
   void updateBarrier(BarrierId barrier);
   void updateBarrier(BarrierId barrier, const Scene& scene);
 
