@@ -109,12 +109,25 @@ void Barrier::keepSettings(const ResponseSettings& usual) {
   report_.memory += sizeof(Barrier) + own_.capacity() * sizeof(ResponseSettings);
 }
 
-double Barrier::clearanceAtLeast(const Eigen::Vector3d& place, double height) const {
-  return mesh_ ? mesh_->clearance().atLeast(place.x(), place.y())
-               : primitive_->clearanceAtLeast(place, height);
+double Barrier::freeUntil(const PlanStrip& strip, double z, double height) const {
+  return mesh_ ? mesh_->plan().freeUntil(strip) : primitive_->freeUntil(strip, z, height);
 }
 
+bool Barrier::mayComeWithin(const Eigen::Vector3d& place, double radius) const {
+  const PlanStrip square{
+      .origin = place.head<2>(), .start = -radius, .end = radius, .halfWidth = radius};
+  return freeUntil(square, place.z(), radius) < radius;
+}
+
+double Barrier::lean() const { return mesh_ ? mesh_->lean() : primitive_->lean(); }
+
 int Barrier::wallCount() const { return mesh_ ? static_cast<int>(mesh_->walls().size()) : 1; }
+
+int Barrier::wallAt(int wall, const Eigen::Vector3d& point) const {
+  if (!mesh_) return wall;
+  const WallTable& walls = mesh_->walls();
+  return static_cast<int>(walls.wallAt(walls.faceOf(static_cast<std::size_t>(wall)), point));
+}
 
 const std::string& Barrier::materialOf(int wall) const {
   static const std::string none;

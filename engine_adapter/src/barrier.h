@@ -40,11 +40,17 @@ class Barrier {
     return primitive_ ? &*primitive_ : nullptr;
   }
 
-  /// A distance, m, within which of a place of the world no wall comes, even if the place is moved
-  /// up or down by `height`, m; measured horizontally for a mesh. 0 if in doubt.
-  [[nodiscard]] double clearanceAtLeast(const Eigen::Vector3d& place, double height) const;
+  /// How far along its middle line a strip is free of walls, m, as WallPlan::freeUntil() says it;
+  /// of a plane or post within `height` above and below `z`, m.
+  [[nodiscard]] double freeUntil(const PlanStrip& strip, double z, double height) const;
+  /// False: certainly no wall comes within `radius` of a place, m.
+  [[nodiscard]] bool mayComeWithin(const Eigen::Vector3d& place, double radius) const;
+  /// How far the walls lean from the vertical at most: m aside for each m up.
+  [[nodiscard]] double lean() const;
 
   [[nodiscard]] int wallCount() const;
+  /// Of the walls that make one face with a wall the one at a point, m.
+  [[nodiscard]] int wallAt(int wall, const Eigen::Vector3d& point) const;
   [[nodiscard]] const std::string& materialOf(int wall) const;
   [[nodiscard]] int triangleOf(int wall) const;  ///< −1 if the geom has none
 

@@ -1,6 +1,7 @@
 #include "barrier_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <mutex>
 #include <utility>
@@ -99,7 +100,7 @@ void BarrierMesh::keepWalls(const Scene& scene, const Walls& selected) {
                 "dropped for another reason that WallSelection gives");
   }
   walls_ = WallTable(selected.walls, scene);
-  clearance_ = ClearanceMap(selected.walls);
+  plan_ = WallPlan(selected.walls);
   report_ = selected.report;
   for (const SceneMesh& mesh : scene.meshes) materials_.push_back(mesh.material);
   low_.setConstant(std::numeric_limits<double>::infinity());
@@ -113,6 +114,7 @@ void BarrierMesh::keepWalls(const Scene& scene, const Walls& selected) {
     }
     highestFoot_ = std::max(highestFoot_, wall.foot);
     lowestTop_ = std::min(lowestTop_, wall.top);
+    lean_ = std::max(lean_, std::abs(wall.normal.z()) / wall.normal.head<2>().norm());
   }
 }
 
@@ -138,7 +140,7 @@ void BarrierMesh::buildMesh(Query query) {
 }
 
 std::size_t BarrierMesh::memory() const {
-  return walls_.memory() + clearance_.memory() + parts_.capacity() * sizeof(Part) +
+  return walls_.memory() + plan_.memory() + parts_.capacity() * sizeof(Part) +
          (walls_.size() - 1) * treeNodeSize;
 }
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "bumper/engine_adapter/barrier.h"
-#include "bumper/scenes/clearance_map.h"
 #include "bumper/scenes/scene.h"
 #include "bumper/scenes/wall_parts.h"
+#include "bumper/scenes/wall_plan.h"
 #include "wall_table.h"
 
 namespace bumper {
@@ -54,8 +54,10 @@ class BarrierMesh {
   /// Whether a sphere reaches the walls' bounding box.
   [[nodiscard]] bool reaches(const Eigen::Vector3d& centre, double radius) const;
 
-  /// How far the nearest wall is at least.
-  [[nodiscard]] const ClearanceMap& clearance() const { return clearance_; }
+  /// The walls from above.
+  [[nodiscard]] const WallPlan& plan() const { return plan_; }
+  /// How far the walls lean from the vertical at most: m aside for each m up.
+  [[nodiscard]] double lean() const { return lean_; }
 
   /// Fills `walls` with the indices of those that ODE's collider finds at the box. The collider
   /// works in single precision: make the box larger by margin() on every side.
@@ -80,7 +82,7 @@ class BarrierMesh {
 
   std::string name_;
   WallTable walls_;
-  ClearanceMap clearance_;
+  WallPlan plan_;
   WallReport report_;
   std::vector<std::string> materials_;
   std::vector<Part> parts_;  // by triangle; empty: geom() holds walls only
@@ -89,6 +91,7 @@ class BarrierMesh {
   double highestFoot_ = 0.0;
   double lowestTop_ = 0.0;
   double margin_ = 0.0;
+  double lean_ = 0.0;
 
   dTriMeshDataID data_ = nullptr;
   dGeomID queryGeom_ = nullptr;  // in no space; carries our callbacks

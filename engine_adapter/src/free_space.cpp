@@ -3,27 +3,38 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
-#include "bumper/response/collision_step.h"
 #include "ode_vectors.h"
+#include "wall_query.h"
 
 namespace bumper {
 
+struct FreeSpace::Room {
+  bool anyHeading;        // room for the vehicle to turn round
+  double aside;           // by which it may move to either side, m
+  double turn;            // by which it may turn otherwise, rad
+  double moreSpeed;       // times as fast as now it may become …
+  double speedAllowance;  // … and this more, m/s
+};
+
 namespace {
 
-// How much faster than now the vehicle may become, and how much more may act on it, before one
-// looks again.
-constexpr double moreSpeed = 1.2;
-constexpr double speedAllowance = 1.0;    // m/s
+// How much more than now may act on a vehicle before one looks again.
+constexpr double moreForce = 4.0;
+constexpr double accelerationAllowance = 4.0;     // m/s²
+constexpr double yawAccelerationAllowance = 4.0;  // rad/s²
+constexpr double moreTurning = 1.5;
 constexpr double turningAllowance = 0.3;  // rad/s
-constexpr double moreForce = 1.5;
-constexpr double accelerationAllowance = 2.0;     // m/s²
-constexpr double yawAccelerationAllowance = 2.0;  // rad/s²
+
+// By how much the world's gravity may change between two looks, m/s².
+constexpr double gravityAllowance = 1000.0;
+
+// By how much the vehicle may lean over more than now, rad.
+constexpr double moreTilt = 0.05;
 
 // Mass and inertia are read when one looks. Until the next time they may change by a fifth.
 constexpr double massChange = 1.2;
-constexpr int stepsBetweenLooks = 128;
+constexpr int stepsBetweenLooks = 256;
 constexpr int stepsAfterFailure = 8;
 
 // The strip's length: what is passed in this time, s, within limits, m. A vehicle that is slower
@@ -34,20 +45,21 @@ constexpr double leastBehind = 0.25;
 constexpr double mostAhead = 32.0;
 constexpr double slow = 1.0;
 
-// The widths of strips that are tried, m, the turns of the forward axis that go with them, rad, and
-// how far apart they are looked at, m: the more room, the longer it lasts.
-struct Width {
-  double aside;
-  double turn;
-  double spacing;
-};
-constexpr std::array<Width, 4> widths = {
-    {{2.0, 0.3, 4.0}, {1.0, 0.15, 3.0}, {0.5, 0.08, 2.0}, {0.15, 0.04, 1.0}}};
-
 // A strip that the vehicle leaves within so many steps is not worth the look.
 constexpr double fewestSteps = 4.0;
 
+// More than what rounds away, m.
+constexpr double slack = 1e-5;
+
 double square(double value) { return value * value; }
+
+// How far from its line in the yaw plane a wall may be, m for each m of the band's height. What
+// leans further over does not count as a wall.
+double leanAsSeen(double wallLean, double tilt) {
+  constexpr double most = 10.0;
+  const double angle = std::atan(wallLean) + tilt;
+  return angle < std::atan(most) ? std::tan(angle) : most;
+}
 
 }  // namespace
 
@@ -59,148 +71,140 @@ FreeSpace::FreeSpace(const VehicleBodies& bodies, const VehicleParameters& param
       high_(band.top - parameters.massCentreHeight),
       minUprightness_(minUprightness),
       rotation_(dBodyGetRotation(bodies.chassis())),
+      quaternion_(dBodyGetQuaternion(bodies.chassis())),
       turning_(dBodyGetAngularVel(bodies.chassis())) {
   for (dBodyID body : bodies.all()) {
     bodies_.push_back({.position = dBodyGetPosition(body),
                        .velocity = dBodyGetLinearVel(body),
                        .force = dBodyGetForce(body),
-                       .torque = dBodyGetTorque(body),
-                       .x = 0.0,
-                       .y = 0.0,
-                       .z = 0.0});
+                       .torque = dBodyGetTorque(body)});
   }
 }
 
-void FreeSpace::allowMotion(const VehicleState& state) {
+void FreeSpace::allowMotion(const VehicleState& state, const Room& room) {
   double speed2 = 0.0;
-  double force2 = 0.0;
-  double torque2 = 0.0;
-  for (const Body& body : bodies_) {
-    speed2 = std::max(speed2, squaredNorm(body.velocity));
-    force2 += squaredNorm(body.force);
-    torque2 += squaredNorm(body.torque);
+  for (const Body& body : bodies_) speed2 = std::max(speed2, squaredNorm(body.velocity));
+  speedWeight_ = 1.0 / square(room.moreSpeed * std::sqrt(speed2) + room.speedAllowance);
+  const double count = static_cast<double>(bodies_.size());
+  double torque = 0.0;
+  for (Body& body : bodies_) {
+    body.forceWeight = 1.0 / square(moreForce * std::sqrt(squaredNorm(body.force)) +
+                                    accelerationAllowance * state.mass / count);
+    torque = std::max(torque, std::sqrt(squaredNorm(body.torque)));
   }
-  speed2_ = square(moreSpeed * std::sqrt(speed2) + speedAllowance);
-  turning2_ = square(moreSpeed * std::sqrt(squaredNorm(turning_)) + turningAllowance);
-  force2_ = square(moreForce * std::sqrt(force2) + accelerationAllowance * state.mass);
-  torque2_ = square(moreForce * std::sqrt(torque2) + yawAccelerationAllowance * state.yawInertia);
+  torqueWeight_ =
+      1.0 / square(moreForce * torque + yawAccelerationAllowance * state.yawInertia / count);
+  turningWeight_ = 1.0 / square(moreTurning * std::sqrt(squaredNorm(turning_)) + turningAllowance);
 }
 
-// How far any point of the outline comes in a step with the most that is allowed.
-double FreeSpace::reachOfAllowed(const VehicleState& state, double gravity, double penetrationTime,
-                                 double h) const {
-  const double count = std::sqrt(static_cast<double>(bodies_.size()));
-  // Sums of lengths, from the root of the sum of their squares.
-  const double forces = count * std::sqrt(force2_);
-  const double torques = count * std::sqrt(torque2_);
-  double arm = 0.0;
-  if (bodies_.size() > 1) {
-    for (const Body& body : bodies_) {
-      arm = std::max(arm, (toVector(body.position) - state.massCentre).norm());
-    }
-    // While the bodies move each for itself.
-    arm += 2.0 * std::hypot(std::max(strip_.ahead, strip_.behind), strip_.aside, heightChange);
-  }
-  const double acceleration = massChange * forces / state.mass + gravity;
-  const double yawAcceleration = massChange * (torques + arm * forces) / state.yawInertia;
-  VehicleParameters vehicle = parameters_;
-  vehicle.mass = state.mass;
-  vehicle.yawInertia = state.yawInertia;
-  const PlanarMotion motion{.velocity = {std::sqrt(speed2_) + h * acceleration, 0.0},
-                            .yawRate = std::sqrt(turning2_) + h * yawAcceleration};
-  return massChange * CollisionStep::reach(vehicle, motion, penetrationTime, h);
-}
-
-// Whether there is no wall in the strip; it is made shorter if that helps.
+// Whether the vehicle has that room; the strip is made shorter if that helps.
 bool FreeSpace::fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
-                     const VehicleState& state, double reach, double turn, double spacing) {
+                     const VehicleState& state, const Room& room, double gravity, double h) {
+  allowMotion(state, room);
+  const double count = static_cast<double>(bodies_.size());
+  const double speed = 1.0 / std::sqrt(speedWeight_);
+  double forces = 0.0;
+  double arm = 0.0;
+  for (const Body& body : bodies_) {
+    forces += 1.0 / std::sqrt(body.forceWeight);
+    arm = std::max(arm, (toVector(body.position) - state.massCentre).norm());
+  }
+  const double acceleration = massChange * forces / state.mass + gravity + gravityAllowance;
+  const double way = h * (speed + h * acceleration);
+  const double near = nearSteps * h * speed;
+  const double tilt = std::acos(std::clamp(leastUp_, 0.0, 1.0));
+  const double bandHeight = high_ - low_;
+  const double height = std::max(std::abs(low_), std::abs(high_));
+
+  // What the vehicle takes of the horizontal plane, with all that counts as near, and in the step.
   const Eigen::Vector2d along(forwardX_, forwardY_);
   const Eigen::Vector2d across = turnedLeft(along);
-  // What the outline over the band takes in the horizontal plane.
   double front = 0.0;
   double rear = 0.0;
   double side = 0.0;
-  for (const double x : {outline_.front, -outline_.rear}) {
-    for (const double y : {outline_.halfWidth, -outline_.halfWidth}) {
-      for (const double z : {low_, high_}) {
-        const Eigen::Vector2d corner = (state.axes * Eigen::Vector3d(x, y, z)).head<2>();
-        front = std::max(front, along.dot(corner));
-        rear = std::max(rear, -along.dot(corner));
-        side = std::max(side, std::abs(across.dot(corner)));
+  if (room.anyHeading) {
+    const double zone = outline_.enlarged(near).farthest();
+    front = rear = side = std::hypot(std::max(zone, outline_.radius() + way) + slack, height);
+  } else {
+    const double torques = count / std::sqrt(torqueWeight_);
+    // While the bodies move each for itself.
+    const double farthestArm = count > 1.0 ? 2.0 * arm : 0.0;
+    const double yawAcceleration = massChange * (torques + farthestArm * forces) / state.yawInertia;
+    const double turned =
+        h * (1.0 / std::sqrt(turningWeight_) + h * yawAcceleration) * outline_.radius();
+    const PlanRectangle zone = outline_.enlarged(std::max(near, way + turned) + slack);
+    for (const double x : {zone.middle.x() - zone.half.x(), zone.middle.x() + zone.half.x()}) {
+      for (const double y : {-zone.half.y(), zone.half.y()}) {
+        for (const double z : {low_, high_}) {
+          const Eigen::Vector2d corner = (state.axes * Eigen::Vector3d(x, y, z)).head<2>();
+          front = std::max(front, along.dot(corner));
+          rear = std::max(rear, -along.dot(corner));
+          side = std::max(side, std::abs(across.dot(corner)));
+        }
       }
     }
+    const double more = room.turn * std::hypot(zone.farthest(), height);
+    front += more;
+    rear += more;
+    side += more;
   }
-  // The left axis turns by no more than both others together.
-  const double turned = turn * std::max(outline_.front, outline_.rear) +
-                        (turn + upTurn) * outline_.halfWidth +
-                        upTurn * std::max(std::abs(low_), std::abs(high_));
-  const double slack = reach + turned;
-  const double start = -(rear + slack + strip_.behind);
-  const double beyond = front + slack;
-  const double radius = std::hypot(side + slack + strip_.aside, 0.5 * spacing);
 
-  double end = beyond + strip_.ahead;
-  const Eigen::Vector2d centre = state.massCentre.head<2>();
+  const double speedNow = state.velocity.head<2>().norm();
+  double ahead = std::clamp(timeAhead * speedNow, leastAhead, mostAhead);
+  const double wanted = std::min(fewestSteps * h * speedNow, 0.5 * ahead);
   for (const std::unique_ptr<Barrier>& barrier : barriers) {
     if (barrier == nullptr) continue;
-    const auto clearanceAt = [&](double x) {
-      const Eigen::Vector2d place = centre + x * along;
-      return barrier->clearanceAtLeast({place.x(), place.y(), state.massCentre.z()}, heightChange);
-    };
-    const double middle = 0.5 * (start + end);
-    if (clearanceAt(middle) >= std::hypot(end - middle, radius)) continue;
-    // Discs in a row.
-    const int discs = static_cast<int>(std::ceil((end - start) / spacing));
-    for (int k = 0; k < discs; ++k) {
-      if (clearanceAt(start + (k + 0.5) * spacing) >= radius) continue;
-      end = start + k * spacing;
-      break;
-    }
-    if (end < beyond) return false;
+    const double lean = bandHeight * leanAsSeen(barrier->lean(), tilt);
+    const PlanStrip strip{.origin = state.massCentre.head<2>(),
+                          .direction = along,
+                          .start = -(rear + lean + leastBehind),
+                          .end = front + lean + ahead,
+                          .halfWidth = side + lean + room.aside};
+    ahead = std::min(ahead, barrier->freeUntil(strip, state.massCentre.z(), heightChange + height) -
+                                (front + lean));
+    if (!(ahead >= wanted)) return false;
   }
-  strip_.ahead = end - beyond;
+  anyHeading_ = room.anyHeading;
+  halfLength_ = 0.5 * (ahead + leastBehind);
+  halfWidth_ = room.aside;
+  leastTurn_ = std::cos(0.5 * room.turn);
+  const Eigen::Vector2d toMiddle = 0.5 * (ahead - leastBehind) * along;
+  for (Body& body : bodies_) {
+    body.x = body.position[0] + toMiddle.x();
+    body.y = body.position[1] + toMiddle.y();
+    body.z = body.position[2];
+  }
   return true;
 }
 
 bool FreeSpace::find(const std::vector<std::unique_ptr<Barrier>>& barriers,
-                     const VehicleState& state, double gravity, double penetrationTime, double h) {
+                     const VehicleState& state, double gravity, double h, int mostSteps) {
+  // The more room, the longer it lasts.
+  static constexpr std::array<Room, 5> rooms = {
+      {{.anyHeading = true, .aside = 2.0, .turn = 0.0, .moreSpeed = 1.2, .speedAllowance = 1.0},
+       {.anyHeading = true, .aside = 0.6, .turn = 0.0, .moreSpeed = 1.2, .speedAllowance = 1.0},
+       {.anyHeading = false, .aside = 0.8, .turn = 0.12, .moreSpeed = 1.1, .speedAllowance = 0.5},
+       {.anyHeading = false, .aside = 0.3, .turn = 0.05, .moreSpeed = 1.1, .speedAllowance = 0.3},
+       {.anyHeading = false,
+        .aside = 0.08,
+        .turn = 0.02,
+        .moreSpeed = 1.06,
+        .speedAllowance = 0.1}}};
   step_ = 0.0;
   if (--stepsUntilLook_ > 0) return false;
-  // It stays upright while its up axis turns no further than it may.
-  if (state.up().z() - upTurn < minUprightness_) return false;
+  leastUp_ = std::max(std::cos(std::acos(std::clamp(state.up().z(), -1.0, 1.0)) + moreTilt),
+                      minUprightness_);
   const Eigen::Vector2d velocity = state.velocity.head<2>();
-  const double speed = velocity.norm();
   // Along the way it goes; the heading of one at rest.
   const Eigen::Vector2d way =
-      speed > slow ? velocity : Eigen::Vector2d(state.axes.col(0).head<2>());
+      velocity.norm() > slow ? velocity : Eigen::Vector2d(state.axes.col(0).head<2>());
   forwardX_ = way.x() / way.norm();
   forwardY_ = way.y() / way.norm();
-  forward_ = state.axes.col(0);
-  up_ = state.up();
-  allowMotion(state);
-  const double ahead = std::clamp(timeAhead * speed, leastAhead, mostAhead);
-  strip_ = {.ahead = ahead, .behind = leastBehind, .aside = widths.front().aside};
-  const double reach = reachOfAllowed(state, gravity, penetrationTime, h);
-  double around = std::numeric_limits<double>::infinity();
-  for (const std::unique_ptr<Barrier>& barrier : barriers) {
-    if (barrier == nullptr) continue;
-    around = std::min(around, barrier->clearanceAtLeast(state.massCentre, heightChange));
-  }
-  for (const Width& width : widths) {
-    if (around < outline_.halfWidth + reach + width.aside) continue;
-    strip_ = {.ahead = ahead, .behind = leastBehind, .aside = width.aside};
-    if (!fits(barriers, state, reach, width.turn, width.spacing)) continue;
-    if (strip_.ahead < std::min(fewestSteps * h * speed, 0.5 * ahead)) continue;
-    strip_.middle = 0.5 * (strip_.ahead - strip_.behind);
-    strip_.half = 0.5 * (strip_.ahead + strip_.behind);
-    leastForward_ = cosineOf(width.turn);
+  std::copy_n(quaternion_, 4, heading_);
+  for (const Room& room : rooms) {
+    if (!fits(barriers, state, room, gravity, h)) continue;
     step_ = h;
-    stepsLeft_ = stepsBetweenLooks;
-    for (Body& body : bodies_) {
-      body.x = body.position[0];
-      body.y = body.position[1];
-      body.z = body.position[2];
-    }
+    stepsLeft_ = std::min(stepsBetweenLooks, mostSteps);
     return true;
   }
   stepsUntilLook_ = stepsAfterFailure;

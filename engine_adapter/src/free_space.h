@@ -12,24 +12,26 @@
 
 namespace bumper {
 
-/// Room around a vehicle without any wall, and the motion for which it cannot reach one within a
-/// step: as long as the vehicle is in that room and no faster than that, its step is skipped.
+/// Room around a vehicle without any wall, and the motion for which it cannot come near one within
+/// a step: as long as the vehicle is in that room and no faster than that, its step is skipped.
 ///
-/// The room is a strip along the vehicle's forward axis, in the horizontal plane. It is found with
-/// the barriers' clearance maps, and holds whatever the walls' heights.
+/// The room is a strip of the horizontal plane along the vehicle's way, wide enough for any heading
+/// or, between walls, for the heading that the vehicle has. It is found with the barriers' plans,
+/// and holds whatever the walls' heights.
 class FreeSpace {
  public:
   FreeSpace(const VehicleBodies& bodies, const VehicleParameters& parameters, const Band& band,
             double minUprightness);
 
-  /// Whether the vehicle is certainly out of every wall's reach in the coming step of `h` seconds.
-  /// A comparison of what its bodies are and do now; false if in doubt.
+  /// Whether the vehicle certainly touches no wall in the coming step of `h` seconds, and is not
+  /// near one as WallQuery::nearZone() has it. A comparison of what its bodies are and do now;
+  /// false if in doubt.
   [[nodiscard]] bool holds(double h);
 
-  /// Looks for such room, and returns whether there is. `gravity` is the world's, m/s²,
-  /// `penetrationTime` the longest of the barriers' settings.
+  /// Looks for such room, and returns whether there is. `gravity` is the world's, m/s²; what is
+  /// found serves for no more than `mostSteps`.
   bool find(const std::vector<std::unique_ptr<Barrier>>& barriers, const VehicleState& state,
-            double gravity, double penetrationTime, double h);
+            double gravity, double h, int mostSteps);
 
   /// Nothing is known: barriers have changed.
   void forget() {
@@ -44,30 +46,24 @@ class FreeSpace {
     const dReal* velocity;
     const dReal* force;
     const dReal* torque;
-    double x, y, z;  // its place when the room was found
+    double x = 0.0, y = 0.0, z = 0.0;  // where it is in the middle of the strip
+    double forceWeight = 0.0;          // 1 over the square of the force that is allowed, 1/N²
   };
 
-  struct Strip {
-    double ahead = 0.0;   // m, by which the vehicle can move on
-    double behind = 0.0;  // m, by which it can move back
-    double aside = 0.0;   // m, by which it can move to either side
-    double middle = 0.0;  // of the way from -behind to ahead, m
-    double half = 0.0;    // of its length, m
-  };
-
-  // How far the vehicle's up axis may turn, rad, and it may rise or sink, m.
-  static constexpr double upTurn = 0.05;
+  // How far the vehicle may rise or sink, m.
   static constexpr double heightChange = 16.0;
 
-  // Less than the cosine of an angle, rad.
-  static constexpr double cosineOf(double angle) { return 1.0 - 0.5 * angle * angle; }
+  /// How much room is looked for, and how much the motion may change in it.
+  struct Room;
+
   static double squaredNorm(const dReal* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
 
-  void allowMotion(const VehicleState& state);
-  [[nodiscard]] double reachOfAllowed(const VehicleState& state, double gravity,
-                                      double penetrationTime, double h) const;
+  [[nodiscard]] bool keepsWithin(const Body& body) const;
+  [[nodiscard]] bool keepsHeading() const;
+  void allowMotion(const VehicleState& state, const Room& room);
   [[nodiscard]] bool fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
-                          const VehicleState& state, double reach, double turn, double spacing);
+                          const VehicleState& state, const Room& room, double acceleration,
+                          double h);
 
   VehicleParameters parameters_;
   Outline outline_;
@@ -77,48 +73,56 @@ class FreeSpace {
 
   std::vector<Body> bodies_;
   const dReal* rotation_;
+  const dReal* quaternion_;
   const dReal* turning_;
 
   double step_ = 0.0;  // the longest step for which it holds, s; 0: nothing is known
   int stepsLeft_ = 0;
   int stepsUntilLook_ = 0;
-  Strip strip_;
-  double leastForward_ = 1.0;  // cosine of the turn that is allowed
-  double forwardX_ = 0.0;      // the strip's direction
-  double forwardY_ = 0.0;
-  Eigen::Vector3d forward_ = Eigen::Vector3d::Zero();  // the vehicle's axes then
-  Eigen::Vector3d up_ = Eigen::Vector3d::Zero();
 
-  // What is allowed, as squares.
-  double speed2_ = 0.0;    // of each body
-  double turning2_ = 0.0;  // of the chassis
-  double force2_ = 0.0;    // of all bodies together
-  double torque2_ = 0.0;
+  // The strip: its direction, and by how much the vehicle may be away from its middle, m.
+  double forwardX_ = 0.0;
+  double forwardY_ = 0.0;
+  double halfLength_ = 0.0;
+  double halfWidth_ = 0.0;
+
+  // What is allowed: weights are 1 over squares.
+  double leastUp_ = 1.0;                        // vertical part of the vehicle's up axis
+  double speedWeight_ = 0.0;                    // of each body
+  bool anyHeading_ = false;                     // … if true, the rest is not asked
+  double leastTurn_ = 1.0;                      // cosine of half the rotation
+  double turningWeight_ = 0.0;                  // of the chassis
+  double torqueWeight_ = 0.0;                   // of each body
+  dQuaternion heading_ = {1.0, 0.0, 0.0, 0.0};  // when the room was found
 };
 
-// Here, because it is all that most steps do.
+// Here, because it is all that most steps do. A number that is not finite fails its comparison.
+inline bool FreeSpace::keepsWithin(const Body& body) const {
+  const double x = body.position[0] - body.x;
+  const double y = body.position[1] - body.y;
+  return std::abs(x * forwardX_ + y * forwardY_) <= halfLength_ &&
+         std::abs(y * forwardX_ - x * forwardY_) <= halfWidth_ &&
+         std::abs(body.position[2] - body.z) <= heightChange &&
+         speedWeight_ * squaredNorm(body.velocity) + body.forceWeight * squaredNorm(body.force) <=
+             1.0;
+}
+
+inline bool FreeSpace::keepsHeading() const {
+  const dReal* q = quaternion_;
+  double turn = turningWeight_ * squaredNorm(turning_);
+  for (const Body& body : bodies_) turn += torqueWeight_ * squaredNorm(body.torque);
+  return turn <= 1.0 &&
+         q[0] * heading_[0] + q[1] * heading_[1] + q[2] * heading_[2] + q[3] * heading_[3] >=
+             leastTurn_;
+}
+
 inline bool FreeSpace::holds(double h) {
-  if (!(h <= step_) || --stepsLeft_ < 0) return false;
-  const dReal* r = rotation_;
-  const double forward = r[0] * forward_.x() + r[4] * forward_.y() + r[8] * forward_.z();
-  const double up = r[2] * up_.x() + r[6] * up_.y() + r[10] * up_.z();
-  // A number that is not finite fails its comparison.
-  bool inside =
-      forward >= leastForward_ && up >= cosineOf(upTurn) && squaredNorm(turning_) <= turning2_;
-  double force2 = 0.0;
-  double torque2 = 0.0;
+  if (!(h <= step_) || stepsLeft_ <= 0 || !(rotation_[10] >= leastUp_)) return false;
+  --stepsLeft_;
   for (const Body& body : bodies_) {
-    const double x = body.position[0] - body.x;
-    const double y = body.position[1] - body.y;
-    const double along = x * forwardX_ + y * forwardY_ - strip_.middle;
-    const double across = y * forwardX_ - x * forwardY_;
-    inside = inside && std::abs(along) <= strip_.half && std::abs(across) <= strip_.aside &&
-             std::abs(body.position[2] - body.z) <= heightChange &&
-             squaredNorm(body.velocity) <= speed2_;
-    force2 += squaredNorm(body.force);
-    torque2 += squaredNorm(body.torque);
+    if (!keepsWithin(body)) return false;
   }
-  return inside && force2 <= force2_ && torque2 <= torque2_;
+  return anyHeading_ || keepsHeading();
 }
 
 }  // namespace bumper

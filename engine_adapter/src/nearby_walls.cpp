@@ -14,10 +14,6 @@ constexpr double allAround = 1.0;
 constexpr double timeAhead = 0.2;
 constexpr double mostAhead = 6.0;
 
-// Walls lie in one plane within these.
-constexpr double sameOffset = 1e-9;    // m
-constexpr double sameNormal2 = 1e-26;  // of the difference's square
-
 // What is left of a wall that leans lies in the rectangle around its part in the band.
 constexpr double aroundCorner = 1.4143;
 
@@ -49,113 +45,128 @@ void NearbyWalls::list(WallQuery& query, const std::vector<std::unique_ptr<Barri
               .height = allAround};
   const double radius =
       query.radius() + std::max(margins_.front, margins_.rear) + margins_.side + margins_.height;
-  walls_.clear();
-  sheets_.clear();
-  lastWithin_ = 0;
+  faces_.clear();
+  lastNear_ = 0;
   for (const std::unique_ptr<Barrier>& barrier : barriers) {
-    if (barrier == nullptr || barrier->clearanceAtLeast(centre_, radius) > radius) continue;
+    if (barrier == nullptr || !barrier->mayComeWithin(centre_, radius)) continue;
     if (barrier->mesh() == nullptr) {
-      walls_.push_back(
-          {.of = {.barrier = barrier.get(), .wall = 0},
-           .wall = {.corners = {centre_, centre_, centre_}, .normal = Eigen::Vector3d::Zero()},
-           .centre = centre_,
-           .radius = std::numeric_limits<double>::infinity(),
-           .sheet = sheetOf(
-               {.corners = {centre_, centre_, centre_}, .normal = Eigen::Vector3d::Zero()})});
-      continue;
-    }
-    for (const int number : query.list(*barrier->mesh(), state, margins_)) {
-      const Wall wall = barrier->mesh()->walls()[static_cast<std::size_t>(number)];
-      const auto& corners = wall.corners;
-      const Eigen::Vector3d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
-      const Eigen::Vector3d high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
-      walls_.push_back({.of = {.barrier = barrier.get(), .wall = number},
-                        .wall = wall,
-                        .centre = 0.5 * (low + high),
-                        .radius = aroundCorner * 0.5 * (high - low).norm(),
-                        .sheet = sheetOf(wall)});
+      faces_.push_back({.barrier = barrier.get(),
+                        .centre = centre_,
+                        .radius = std::numeric_limits<double>::infinity(),
+                        .settings = &barrier->settings(barrier->settingsNumberOf(0))});
+    } else {
+      listFaces(*barrier, query.list(*barrier->mesh(), state, margins_));
     }
   }
   isKnown_ = true;
 }
 
-// The number of the plane that a wall lies in.
-std::size_t NearbyWalls::sheetOf(const Wall& wall) {
-  const double offset = wall.normal.dot(wall.corners[0] - centre_);
-  const auto same = std::find_if(sheets_.begin(), sheets_.end(), [&](const Sheet& sheet) {
-    return (sheet.normal - wall.normal).squaredNorm() <= sameNormal2 &&
-           std::abs(sheet.offset - offset) <= sameOffset;
-  });
-  if (same != sheets_.end()) return static_cast<std::size_t>(same - sheets_.begin());
-  sheets_.push_back({.normal = wall.normal, .offset = offset, .isBeyond = false});
-  return sheets_.size() - 1;
-}
-
-// Finds the planes that have all of a rectangle, over the band, on one side.
-void NearbyWalls::lookAtSheets(const WallQuery& query, const VehicleState& state,
-                               const PlanRectangle& around) {
-  const Eigen::Vector3d middle(around.middle.x(), around.middle.y(), query.middleHeight());
-  const Eigen::Vector3d place = state.massCentre - centre_ + state.axes * middle;
-  for (Sheet& sheet : sheets_) {
-    const Eigen::Vector3d normal = state.axes.transpose() * sheet.normal;
-    // Twice the band's height: what leans stands out from its line.
-    const double half = std::abs(normal.x()) * around.half.x() +
-                        std::abs(normal.y()) * around.half.y() +
-                        std::abs(normal.z()) * 2.0 * query.lean();
-    sheet.isBeyond = std::abs(sheet.offset - sheet.normal.dot(place)) > half + 2.0 * sameOffset;
+// The faces that walls belong to, which come in order.
+void NearbyWalls::listFaces(const Barrier& barrier, std::span<const int> walls) {
+  const WallTable& table = barrier.mesh()->walls();
+  std::size_t done = 0;
+  for (const int number : walls) {
+    const auto wall = static_cast<std::size_t>(number);
+    if (wall < done) continue;
+    Near near{.barrier = &barrier, .walls = table.faceOf(wall)};
+    near.face = table.face(near.walls);
+    near.settings = &barrier.settings(barrier.settingsNumberOf(number));
+    Eigen::Vector3d low = near.face.corners().front();
+    Eigen::Vector3d high = low;
+    for (const Eigen::Vector3d& corner : near.face.corners()) {
+      low = low.cwiseMin(corner);
+      high = high.cwiseMax(corner);
+    }
+    near.centre = 0.5 * (low + high);
+    near.radius = aroundCorner * 0.5 * (high - low).norm();
+    faces_.push_back(near);
+    done = near.walls.last;
   }
 }
 
-// Whether a wall may be in the rectangle whose planes were looked at last.
-bool NearbyWalls::mayMeet(const Near& near, const VehicleState& state,
-                          const PlanRectangle& around) const {
-  if (sheets_[near.sheet].isBeyond) return false;
+// Whether a face may be in a rectangle of the yaw plane, over the band.
+bool NearbyWalls::mayMeet(const Near& near, const WallQuery& query, const VehicleState& state,
+                          const PlanRectangle& around) {
   const Eigen::Vector3d away = near.centre - state.massCentre;
   const double x = state.axes.col(0).dot(away) - around.middle.x();
-  if (std::abs(x) > around.half.x() + near.radius) return false;
   const double y = state.axes.col(1).dot(away) - around.middle.y();
-  return std::abs(y) <= around.half.y() + near.radius;
+  if (std::abs(x) > around.half.x() + near.radius) return false;
+  if (std::abs(y) > around.half.y() + near.radius) return false;
+  if (near.face.corners().empty()) return true;
+  // All of the rectangle on one side of the face's plane? Twice the band's height: what leans
+  // stands out from its line.
+  const Eigen::Vector3d& normal = near.face.normal();
+  const double normalX = state.axes.col(0).dot(normal);
+  const double normalY = state.axes.col(1).dot(normal);
+  const double normalZ = state.axes.col(2).dot(normal);
+  const double offset = normal.dot(near.face.corners().front() - state.massCentre) -
+                        normalX * around.middle.x() - normalY * around.middle.y() -
+                        normalZ * query.middleHeight();
+  const double half = std::abs(normalX) * around.half.x() + std::abs(normalY) * around.half.y() +
+                      std::abs(normalZ) * 2.0 * query.lean();
+  return std::abs(offset) <= half + 2.0 * touchTolerance;
 }
 
-bool NearbyWalls::anyMayMeet(const WallQuery& query, const VehicleState& state,
-                             const PlanRectangle& around) {
-  lookAtSheets(query, state, around);
-  return std::any_of(walls_.begin(), walls_.end(),
-                     [&](const Near& near) { return mayMeet(near, state, around); });
+const std::optional<WallSegment>& NearbyWalls::pieceOf(Near& near, const WallQuery& query,
+                                                       const VehicleState& state, double reach) {
+  if (near.isCut) return near.piece;
+  near.isCut = true;
+  const Barrier& barrier = *near.barrier;
+  if (const PrimitiveWall* primitive = barrier.primitive()) {
+    near.piece = query.cut(*primitive, state, reach);
+  } else {
+    near.piece = query.cut(near.face, state);
+    if (near.piece) near.piece->solid = barrier.mesh()->isSolid();
+  }
+  if (near.piece) {
+    near.piece->group = barrier.id().value;
+    near.piece->settings = near.settings;
+  }
+  return near.piece;
 }
 
-bool NearbyWalls::anyWithin(const WallQuery& query, const VehicleState& state, double reach) {
-  const PlanRectangle around = query.outline().enlarged(reach);
-  lookAtSheets(query, state, around);
-  const auto isWithin = [&](const Near& near) {
-    return mayMeet(near, state, around) &&
-           query.cut(*near.of.barrier, near.of.wall, near.wall, state, reach).has_value();
+bool NearbyWalls::anyIn(const NearZone& zone, const WallQuery& query, const VehicleState& state,
+                        double reach) {
+  const auto isIn = [&](Near& near) {
+    if (!mayMeet(near, query, state, zone.around)) return false;
+    const std::optional<WallSegment>& piece = pieceOf(near, query, state, reach);
+    return piece && zone.meets(*piece);
   };
-  if (lastWithin_ < walls_.size() && isWithin(walls_[lastWithin_])) return true;
-  const auto found = std::find_if(walls_.begin(), walls_.end(), isWithin);
-  lastWithin_ = static_cast<std::size_t>(found - walls_.begin());
-  return found != walls_.end();
+  if (lastNear_ < faces_.size() && isIn(faces_[lastNear_])) return true;
+  const auto found = std::find_if(faces_.begin(), faces_.end(), isIn);
+  lastNear_ = static_cast<std::size_t>(found - faces_.begin());
+  return found != faces_.end();
 }
 
 bool NearbyWalls::collect(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
                           const VehicleState& state, const Question& question,
                           std::vector<WallSegment>& segments) {
-  const double reach = question.reach;
+  const PlanRectangle outline = query.outline().enlarged(0.0);
+  const PlanRectangle& zone = question.zone.around;
+  const double beyond =
+      ((zone.middle - outline.middle).cwiseAbs() + zone.half - outline.half).maxCoeff();
+  const double reach = std::max(question.reach, beyond);
   if (!covers(query, state, reach)) list(query, barriers, state, reach);
-  if (!question.evenIfNoneIsTouched && !anyMayMeet(query, state, question.swept)) {
-    return anyWithin(query, state, reach);
+  for (Near& each : faces_) each.isCut = false;
+  const bool near = anyIn(question.zone, query, state, reach);
+  const auto mayBeTouched = [&](const Near& each) {
+    return mayMeet(each, query, state, question.swept);
+  };
+  const bool isWanted = question.evenIfNoneIsTouched ||
+                        (near && std::any_of(faces_.begin(), faces_.end(), mayBeTouched));
+  if (!isWanted) return near;
+  const PlanRectangle within = query.outline().enlarged(question.reach);
+  for (std::size_t i = 0; i < faces_.size(); ++i) {
+    if (!mayMeet(faces_[i], query, state, within)) continue;
+    const std::optional<WallSegment>& piece = pieceOf(faces_[i], query, state, reach);
+    if (!piece) continue;
+    PlanRectangle around = within;
+    around.half.array() += piece->radius;
+    if (around.misses(piece->start, piece->end)) continue;
+    segments.push_back(*piece);
+    segments.back().id = static_cast<int>(i);
   }
-  const PlanRectangle around = query.outline().enlarged(reach);
-  lookAtSheets(query, state, around);
-  for (std::size_t i = 0; i < walls_.size(); ++i) {
-    const Near& near = walls_[i];
-    if (!mayMeet(near, state, around)) continue;
-    if (auto segment = query.cut(*near.of.barrier, near.of.wall, near.wall, state, reach)) {
-      segment->id = static_cast<int>(i);
-      segments.push_back(*segment);
-    }
-  }
-  return !segments.empty();
+  return near;
 }
 
 }  // namespace bumper

@@ -2,11 +2,13 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "barrier.h"
 #include "vehicle_bodies.h"
+#include "wall_face.h"
 #include "wall_query.h"
 
 namespace bumper {
@@ -21,28 +23,27 @@ struct BarrierWall {
 /// the vehicle may reach out of it.
 class NearbyWalls {
  public:
-  NearbyWalls() {
-    walls_.reserve(32);
-    sheets_.reserve(32);
-  }
+  NearbyWalls() { faces_.reserve(32); }
 
   /// What is asked of the walls around a vehicle.
   struct Question {
-    double reach = 0.0;   ///< how far the outline may come in the step, whatever it hits, m
-    PlanRectangle swept;  ///< what it passes over if it hits nothing
+    NearZone zone;        ///< where walls are near
+    PlanRectangle swept;  ///< what the outline passes over in the step if it hits nothing
+    double reach = 0.0;   ///< how far it may come, whatever it hits, m
     bool evenIfNoneIsTouched = false;
   };
 
-  /// All pieces of walls within the reach of a vehicle in that state, in the order of barriers and
-  /// walls; none if no wall can be touched in the step, unless they are wanted even then. A piece's
-  /// id is its wall's number here. Returns whether there is any piece within the reach.
+  /// Whether any wall is near. `segments` gets all pieces of walls within the reach of the vehicle
+  /// in that state, in the order of barriers and walls; none if no wall can be touched in the step,
+  /// unless they are wanted even then. A piece's id is its face's number here.
   bool collect(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
                const VehicleState& state, const Question& question,
                std::vector<WallSegment>& segments);
 
-  /// The wall with that number, until the next collect().
+  /// A wall of the face with that number, until the next collect().
   [[nodiscard]] BarrierWall at(int number) const {
-    return walls_[static_cast<std::size_t>(number)].of;
+    const Near& near = faces_[static_cast<std::size_t>(number)];
+    return {near.barrier, static_cast<int>(near.walls.first)};
   }
 
   /// Barriers have changed.
@@ -50,38 +51,35 @@ class NearbyWalls {
 
  private:
   struct Near {
-    BarrierWall of;
-    Wall wall;               // with a normal of zero for what is no triangle
-    Eigen::Vector3d centre;  // of a ball around the wall
-    double radius;
-    std::size_t sheet;
-  };
+    const Barrier* barrier = nullptr;
+    WallTable::Stretch walls{};                        // of the face
+    WallFace face{};                                   // none for what is no triangle
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // of a ball around the face
+    double radius = 0.0;
+    const ResponseSettings* settings = nullptr;
 
-  // A plane in which walls lie.
-  struct Sheet {
-    Eigen::Vector3d normal;
-    double offset;  // along the normal, from the region's centre
-    bool isBeyond;  // no wall in it meets the rectangle that was asked for last
+    // Its piece in the step at hand, once it is asked for.
+    bool isCut = false;
+    std::optional<WallSegment> piece{};
   };
 
   [[nodiscard]] bool covers(const WallQuery& query, const VehicleState& state, double reach) const;
-  void lookAtSheets(const WallQuery& query, const VehicleState& state, const PlanRectangle& around);
-  [[nodiscard]] bool mayMeet(const Near& near, const VehicleState& state,
-                             const PlanRectangle& around) const;
-  [[nodiscard]] bool anyMayMeet(const WallQuery& query, const VehicleState& state,
-                                const PlanRectangle& around);
-  [[nodiscard]] bool anyWithin(const WallQuery& query, const VehicleState& state, double reach);
-  [[nodiscard]] std::size_t sheetOf(const Wall& wall);
+  [[nodiscard]] static bool mayMeet(const Near& near, const WallQuery& query,
+                                    const VehicleState& state, const PlanRectangle& around);
+  static const std::optional<WallSegment>& pieceOf(Near& near, const WallQuery& query,
+                                                   const VehicleState& state, double reach);
+  [[nodiscard]] bool anyIn(const NearZone& zone, const WallQuery& query, const VehicleState& state,
+                           double reach);
   void list(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
             const VehicleState& state, double reach);
+  void listFaces(const Barrier& barrier, std::span<const int> walls);
 
   bool isKnown_ = false;
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();    // the region: the vehicle's place,
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  // its axes,
   WallQuery::Margins margins_;                          // and how far it reaches beyond the outline
-  std::vector<Near> walls_;
-  std::vector<Sheet> sheets_;
-  std::size_t lastWithin_ = 0;  // a wall that was within reach, to be asked first
+  std::vector<Near> faces_;
+  std::size_t lastNear_ = 0;  // a face that was near, to be asked first
 };
 
 }  // namespace bumper

@@ -74,4 +74,25 @@ double PrimitiveWall::clearanceAtLeast(const Eigen::Vector3d& place, double heig
   return direction_.dot(away) - height * std::abs(direction_.z());
 }
 
+double PrimitiveWall::freeUntil(const PlanStrip& strip, double z, double height) const {
+  // Discs in a row.
+  const double length = strip.end - strip.start;
+  const double discs = std::max(1.0, std::ceil(length / std::max(2.0 * strip.halfWidth, 1.0)));
+  const double half = 0.5 * length / discs;
+  const double radius = std::hypot(half, strip.halfWidth);
+  for (double k = 0.0; k < discs; ++k) {
+    const double begin = strip.start + 2.0 * k * half;
+    const Eigen::Vector2d middle = strip.origin + (begin + half) * strip.direction;
+    const bool isFree = clearanceAtLeast({middle.x(), middle.y(), z}, height) > radius;
+    if (!isFree) return k > 0.0 ? begin : -std::numeric_limits<double>::infinity();
+  }
+  return strip.end;
+}
+
+double PrimitiveWall::lean() const {
+  const double aside = direction_.head<2>().norm();
+  const double up = std::abs(direction_.z());
+  return isPost() ? aside / up : up / aside;
+}
+
 }  // namespace bumper

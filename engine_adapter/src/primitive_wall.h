@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "bumper/response/contact_point.h"
+#include "bumper/scenes/wall_plan.h"
 #include "vehicle_bodies.h"
 
 namespace bumper {
@@ -25,6 +26,13 @@ class PrimitiveWall {
   /// Distance to the plane, or to the post as if it had no ends, from the nearest of the places
   /// up to `height` above or below one, m.
   [[nodiscard]] double clearanceAtLeast(const Eigen::Vector3d& place, double height) const;
+
+  /// How far along its middle line a strip is free, m, as WallPlan::freeUntil() says it:
+  /// within `height` above and below `z`.
+  [[nodiscard]] double freeUntil(const PlanStrip& strip, double z, double height) const;
+
+  /// How far from the vertical it leans: m aside for each m up.
+  [[nodiscard]] double lean() const;
 
   [[nodiscard]] double foot() const { return foot_; }
   [[nodiscard]] double top() const { return top_; }

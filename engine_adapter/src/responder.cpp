@@ -277,7 +277,7 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
   // So that step() need not allocate when the first vehicle hits the first wall.
   self.events.reserve(CollisionStep::maxImpacts + 8 * self.vehicles.size());
   self.segments.reserve(512);
-  self.active.reserve(self.vehicles.size());
+  self.active.resize(self.vehicles.size());
   return {id};
 }
 

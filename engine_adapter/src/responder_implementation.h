@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <memory>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -73,13 +74,12 @@ struct Responder::Implementation {
   unsigned issues = step_issue::none;
   std::vector<ImpactEvent> events;
 
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  // the world's
-  double longestPenetrationTime = 0.0;                // of all barriers there ever were, s
+  double longestPenetrationTime = 0.0;  // of all barriers there ever were, s
 
   // Scratch memory, kept from step to step.
   CollisionStep collision;
   std::vector<WallSegment> segments;
-  std::vector<Vehicle*> active;  // those that are not certainly away from all walls
+  std::vector<Vehicle*> active;  // a place for every vehicle
 
   /// The pair in either order, if Bumper may own contacts of it.
   [[nodiscard]] OwnedPair pairOf(dGeomID a, dGeomID b) const;
@@ -87,11 +87,12 @@ struct Responder::Implementation {
   /// What is known of the room around vehicles is no longer true.
   void forgetSurroundings();
 
-  void reconsiderLastStep();
+  /// The step of those vehicles that are not certainly away from all walls.
+  void stepAll(std::span<Vehicle* const> some, double h);
+  void reconsiderLastStep(std::span<Vehicle* const> some);
   void stepVehicle(Vehicle& vehicle, double h);
   bool collectWalls(Vehicle& vehicle, const VehicleState& state, const PlanarMotion& motion,
                     double h);
-  void noticeGravity();
   void leaveOutPassages(Vehicle& vehicle);
   void answerCuts(Vehicle& vehicle, const VehicleState& state, const PlanarMotion& motion,
                   double h);

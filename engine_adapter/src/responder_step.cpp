@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "ode_vectors.h"
 #include "pulse_delivery.h"
@@ -63,6 +64,12 @@ void expect(const VehicleState& known, const PlanarImpulse& impulse, double h,
   expected.yawRate = known.yawRate + h * known.yawAcceleration + impulse.angular / known.yawInertia;
 }
 
+double gravityOf(dWorldID world) {
+  dVector3 gravity;
+  dWorldGetGravity(world, gravity);
+  return toVector(gravity).norm();
+}
+
 // By how much the vehicle's axes have turned in its yaw plane, rad.
 double turnSince(const Eigen::Matrix3d& before, const Eigen::Matrix3d& now) {
   return std::atan2(before.col(1).dot(now.col(0)), before.col(0).dot(now.col(0)));
@@ -71,9 +78,9 @@ double turnSince(const Eigen::Matrix3d& before, const Eigen::Matrix3d& now) {
 }  // namespace
 
 // Puts right what the world's last step did not do as it was told.
-void Responder::Implementation::reconsiderLastStep() {
+void Responder::Implementation::reconsiderLastStep(std::span<Vehicle* const> some) {
   bool repeated = false;
-  for (Vehicle* each : active) {
+  for (Vehicle* each : some) {
     if (!each->memory.delivery.any) continue;
     Vehicle& vehicle = *each;
     VehicleMemory& memory = vehicle.memory;
@@ -108,18 +115,41 @@ void Responder::Implementation::reconsiderLastStep() {
   if (repeated) time -= lastStep;
 }
 
+// `wall` is any of those that make one face with the one that was hit.
 void Responder::Implementation::report(Vehicle& vehicle, const VehicleState& state,
                                        const Barrier& barrier, int wall, const StepImpact& each) {
   const Impact& impact = each.impact;
   const ImpactResponse& response = each.response;
+  const Eigen::Vector3d contact = state.massCentre + state.toWorld(impact.point);
+  const Eigen::Vector3d normal = state.toWorld(impact.normal);
+  const double when = time + each.time;
+  const double energyLost = -response.contact.energyChange;
+
+  const ResponseSettings& settings = barrier.settings(barrier.settingsNumberOf(wall));
+  const double soft = isInContact(vehicle.memory.contacts, barrier.id())
+                          ? impactInContact * settings.restSpeed
+                          : settings.restSpeed;
+  const bool hard = response.approachSpeed > soft && !each.slides;
+  const bool begins = addToContact(vehicle.memory.contacts,
+                                   {.barrier = barrier.id(),
+                                    .wall = wall,
+                                    .impulseNormal = response.contact.impulse.normal,
+                                    .impulseTangent = response.contact.impulse.tangent,
+                                    .energyLost = energyLost,
+                                    .contact = contact,
+                                    .normal = normal},
+                                   when, !hard && response.approachSpeed > noticedSpeed);
+  if (!hard && !begins) return;
+
   ImpactEvent event;
-  event.time = time + each.time;
+  event.time = when;
+  event.phase = hard ? EventPhase::impact : EventPhase::contact_begin;
   event.vehicle = vehicle.name;
   event.barrier = barrier.name();
-  event.triangle = barrier.triangleOf(wall);
+  event.triangle = barrier.triangleOf(barrier.wallAt(wall, contact));
   event.material = barrier.materialOf(wall);
-  event.contact = state.massCentre + state.toWorld(impact.point);
-  event.normal = state.toWorld(impact.normal);
+  event.contact = contact;
+  event.normal = normal;
   event.arm = rotated(impact.arm, -response.before.yaw);
   event.law = response.law;
   event.angles = anglesOfAttack(impact, response.before);
@@ -139,28 +169,10 @@ void Responder::Implementation::report(Vehicle& vehicle, const VehicleState& sta
       state.toWorld(response.after.velocity) + state.up().dot(state.velocity) * state.up();
   event.energyAsked = response.energyAsked;
   event.energyRatio = response.energyRatio;
-  event.energyLost = -response.contact.energyChange;
+  event.energyLost = energyLost;
   event.outcome = response.outcome;
   event.regime = response.contact.regime;
-
-  const ResponseSettings& settings = barrier.settings(barrier.settingsNumberOf(wall));
-  const double soft = isInContact(vehicle.memory.contacts, barrier.id())
-                          ? impactInContact * settings.restSpeed
-                          : settings.restSpeed;
-  const bool hard = response.approachSpeed > soft && !each.slides;
-  const bool begins = addToContact(vehicle.memory.contacts,
-                                   {.barrier = barrier.id(),
-                                    .wall = wall,
-                                    .impulseNormal = event.impulseNormal,
-                                    .impulseTangent = event.impulseTangent,
-                                    .energyLost = event.energyLost,
-                                    .contact = event.contact,
-                                    .normal = event.normal},
-                                   event.time, !hard && response.approachSpeed > noticedSpeed);
-  if (hard || begins) {
-    event.phase = hard ? EventPhase::impact : EventPhase::contact_begin;
-    events.push_back(event);
-  }
+  events.push_back(event);
 }
 
 void Responder::Implementation::endContacts(Vehicle& vehicle) {
@@ -180,7 +192,7 @@ void Responder::Implementation::endContacts(Vehicle& vehicle) {
     event.phase = EventPhase::contact_end;
     event.vehicle = vehicle.name;
     event.barrier = barrier.name();
-    event.triangle = barrier.triangleOf(contact.wall);
+    event.triangle = barrier.triangleOf(barrier.wallAt(contact.wall, contact.contact));
     event.material = barrier.materialOf(contact.wall);
     event.contact = contact.contact;
     event.normal = contact.normal;
@@ -221,27 +233,19 @@ void Responder::Implementation::forgetSurroundings() {
   }
 }
 
-void Responder::Implementation::noticeGravity() {
-  dVector3 now;
-  dWorldGetGravity(world, now);
-  if (toVector(now) == gravity) return;
-  gravity = toVector(now);
-  forgetSurroundings();
-}
-
-// Whether walls are within reach; those that matter are in `segments`.
+// Whether walls are near; those that matter are in `segments`.
 bool Responder::Implementation::collectWalls(Vehicle& vehicle, const VehicleState& state,
                                              const PlanarMotion& motion, double h) {
-  const double reach = CollisionStep::reach(withMassOf(vehicle.parameters, state), motion,
-                                            longestPenetrationTime, h);
   if (!options.skipping) vehicle.nearby.forget();
   const VehicleMemory& memory = vehicle.memory;
   return vehicle.nearby.collect(
       vehicle.query, barriers, state,
-      {.reach = reach,
+      {.zone = vehicle.query.nearZone(motion, state.velocity.norm(), h),
        .swept = vehicle.query.swept(motion, h),
+       .reach = CollisionStep::reach(withMassOf(vehicle.parameters, state), motion,
+                                     longestPenetrationTime, h),
        .evenIfNoneIsTouched =
-           !options.skipping || !memory.contacts.empty() || !memory.passages.empty()},
+           !options.skipping || mayHaveEnded(memory.contacts, time) || !memory.passages.empty()},
       segments);
 }
 
@@ -326,9 +330,10 @@ void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
   bool near = false;
   segments.clear();
   const bool remembersWalls = delivering || memory.expectation.step > 0.0 ||
-                              !memory.contacts.empty() || !memory.passages.empty();
+                              mayHaveEnded(memory.contacts, time) || !memory.passages.empty();
   if (exact && upright && options.skipping && !remembersWalls &&
-      vehicle.freeSpace.find(barriers, known, gravity.norm(), longestPenetrationTime, h)) {
+      vehicle.freeSpace.find(barriers, known, gravityOf(world), h,
+                             stepsUntilEnd(memory.contacts, time, h))) {
     return;
   }
   if (upright) {
@@ -338,7 +343,7 @@ void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
   } else {
     vehicle.issues |= step_issue::tilted;
   }
-  if (!memory.contacts.empty()) endContacts(vehicle);
+  if (mayHaveEnded(memory.contacts, time)) endContacts(vehicle);
   if (!near && !delivering) {
     memory.expectation = {};
     memory.passages.clear();
@@ -359,29 +364,31 @@ void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
   }
 }
 
+void Responder::Implementation::stepAll(std::span<Vehicle* const> some, double h) {
+  reconsiderLastStep(some);
+  for (Vehicle* vehicle : some) {
+    stepVehicle(*vehicle, h);
+    issues |= vehicle->issues;
+  }
+}
+
 std::span<const ImpactEvent> Responder::step(double h) {
   Implementation& self = *implementation_;
   self.events.clear();
   self.issues = step_issue::none;
-  const bool isValid = std::isfinite(h) && h >= 0.0;
-  if (isValid && h > 0.0) self.noticeGravity();
-  self.active.clear();
+  // Those that are not certainly away from all walls. One that is has nothing to say, and had
+  // nothing to say before.
+  Vehicle** last = self.active.data();
   for (const std::unique_ptr<Vehicle>& vehicle : self.vehicles) {
-    // One that is skipped had nothing to say before.
-    if (vehicle == nullptr || vehicle->freeSpace.holds(h)) continue;
-    vehicle->issues = step_issue::none;
-    self.active.push_back(vehicle.get());
+    if (vehicle != nullptr && !vehicle->freeSpace.holds(h)) *last++ = vehicle.get();
   }
-  if (!isValid) {
-    self.issues = step_issue::invalid_step;
+  const std::span<Vehicle*> active(self.active.data(), last);
+  for (Vehicle* vehicle : active) vehicle->issues = step_issue::none;
+  if (!(h > 0.0 && h < std::numeric_limits<double>::infinity())) {
+    if (h != 0.0) self.issues = step_issue::invalid_step;
     return {};
   }
-  if (h == 0.0) return {};
-  if (!self.active.empty()) self.reconsiderLastStep();
-  for (Vehicle* vehicle : self.active) {
-    self.stepVehicle(*vehicle, h);
-    self.issues |= vehicle->issues;
-  }
+  if (!active.empty()) self.stepAll(active, h);
   self.time += h;
   self.lastStep = h;
   return self.events;

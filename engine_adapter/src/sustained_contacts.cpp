@@ -1,12 +1,29 @@
 #include "sustained_contacts.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace bumper {
 
 bool isInContact(const std::vector<SustainedContact>& contacts, BarrierId barrier) {
   return std::any_of(contacts.begin(), contacts.end(),
                      [&](const SustainedContact& each) { return each.barrier == barrier; });
+}
+
+bool mayHaveEnded(const std::vector<SustainedContact>& contacts, double time) {
+  return std::any_of(contacts.begin(), contacts.end(), [time](const SustainedContact& each) {
+    return time - each.last >= contactPause;
+  });
+}
+
+int stepsUntilEnd(const std::vector<SustainedContact>& contacts, double time, double h) {
+  double steps = std::numeric_limits<int>::max();
+  for (const SustainedContact& each : contacts) {
+    // One less, for what rounds in the sum of steps.
+    steps = std::min(steps, std::floor((each.last + contactPause - time) / h) - 1.0);
+  }
+  return static_cast<int>(std::max(steps, 0.0));
 }
 
 bool addToContact(std::vector<SustainedContact>& contacts, const ContactShare& share, double time,

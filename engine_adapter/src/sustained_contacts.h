@@ -28,6 +28,12 @@ struct ContactShare {
 /// Whether a vehicle is in contact with a barrier.
 bool isInContact(const std::vector<SustainedContact>& contacts, BarrierId barrier);
 
+/// Whether any of them has had no impulse for so long that it may have ended.
+bool mayHaveEnded(const std::vector<SustainedContact>& contacts, double time);
+
+/// In how many steps of `h` seconds at most certainly none of them can have ended.
+int stepsUntilEnd(const std::vector<SustainedContact>& contacts, double time, double h);
+
 /// Adds an impulse to the vehicle's contact with that barrier. Returns whether it began with it;
 /// `mayBegin` false: it counts only if there is such a contact.
 bool addToContact(std::vector<SustainedContact>& contacts, const ContactShare& share, double time,

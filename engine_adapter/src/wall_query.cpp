@@ -23,56 +23,63 @@ struct Range {
   }
 };
 
-// The extents along the tangent and along the normal of the part of a triangle between two heights.
-struct Extents {
-  Range along;
-  Range out;
-};
-
-Extents extentsBetween(const std::array<Eigen::Vector3d, 3>& corners, const Vector2& normal,
-                       double low, double high) {
-  const Vector2 tangent = turnedLeft(normal);
-  Extents extents;
-  const auto include = [&](const Eigen::Vector3d& point) {
-    extents.along.include(tangent.dot(point.head<2>()));
-    extents.out.include(normal.dot(point.head<2>()));
-  };
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Eigen::Vector3d& a = corners[k];
-    const Eigen::Vector3d& b = corners[(k + 1) % 3];
-    if (low <= a.z() && a.z() <= high) include(a);
-    for (const double height : {low, high}) {
-      if ((a.z() < height) == (b.z() < height)) continue;
-      const double share = (height - a.z()) / (b.z() - a.z());
-      include(a + share * (b - a));
-    }
-  }
-  return extents;
-}
-
 }  // namespace
 
-std::optional<WallSegment> cutWall(const Wall& wall, const VehicleState& state, double low,
+std::optional<WallSegment> cutFace(const WallFace& face, const VehicleState& state, double low,
                                    double high) {
-  std::array<Eigen::Vector3d, 3> corners;
-  for (std::size_t k = 0; k < 3; ++k) {
-    corners[k] = state.axes.transpose() * (wall.corners[k] - state.massCentre);
-  }
-  const Eigen::Vector3d normal = state.axes.transpose() * wall.normal;
+  const Eigen::Vector3d normal = state.axes.transpose() * face.normal();
   const double planar = normal.head<2>().norm();
   if (planar < minPlanarNormal) return std::nullopt;
-
   WallSegment segment;
   segment.normal = normal.head<2>() / planar;
-  const Extents extents = extentsBetween(corners, segment.normal, low, high);
-  if (!(extents.along.low < extents.along.high)) return std::nullopt;
-  // The mass centre is the frame's origin.
-  const double offset = extents.out.high <= 0.0 ? extents.out.high : extents.out.low;
-  const Vector2 foot = offset * segment.normal;
   const Vector2 tangent = turnedLeft(segment.normal);
-  segment.start = foot + extents.along.low * tangent;
-  segment.end = foot + extents.along.high * tangent;
+  const Eigen::Vector3d along = state.toWorld(tangent);
+  const Eigen::Vector3d up = state.up();
+
+  const std::span<const Eigen::Vector3d> corners = face.corners();
+  std::array<double, WallFace::mostCorners> heights;
+  std::array<double, WallFace::mostCorners> places;
+  Range height;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Eigen::Vector3d corner = corners[k] - state.massCentre;
+    heights[k] = up.dot(corner);
+    places[k] = along.dot(corner);
+    height.include(heights[k]);
+  }
+  if (height.low > high || height.high < low) return std::nullopt;
+  // Along the tangent, of the part in the band.
+  Range place;
+  std::size_t last = corners.size() - 1;
+  for (std::size_t k = 0; k < corners.size(); last = k++) {
+    if (low <= heights[k] && heights[k] <= high) place.include(places[k]);
+    const auto [lower, upper] = std::minmax(heights[last], heights[k]);
+    if (upper < low || lower > high) continue;
+    const double slope = (places[k] - places[last]) / (heights[k] - heights[last]);
+    if (lower < low) place.include(places[last] + (low - heights[last]) * slope);
+    if (upper > high) place.include(places[last] + (high - heights[last]) * slope);
+  }
+  if (!(place.low < place.high)) return std::nullopt;
+
+  // The mass centre is the frame's origin; on the face the way out follows from the height.
+  const double distance = face.normal().dot(corners.front() - state.massCentre);
+  const double atFoot = (distance - normal.z() * std::max(low, height.low)) / planar;
+  const double atTop = (distance - normal.z() * std::min(high, height.high)) / planar;
+  const double farthest = std::max(atFoot, atTop);
+  const double offset = farthest <= 0.0 ? farthest : std::min(atFoot, atTop);
+  const Vector2 foot = offset * segment.normal;
+  segment.start = foot + place.low * tangent;
+  segment.end = foot + place.high * tangent;
   return segment;
+}
+
+bool NearZone::meets(const WallSegment& wall) const {
+  PlanRectangle rectangle = around;
+  rectangle.half.array() += wall.radius;
+  if (rectangle.misses(wall.start, wall.end)) return false;
+  const Vector2 along = wall.end - wall.start;
+  const double length2 = along.squaredNorm();
+  const double share = length2 > 0.0 ? std::clamp(-wall.start.dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (wall.start + share * along).norm() <= radius + wall.radius;
 }
 
 WallQuery::WallQuery(const VehicleParameters& parameters, const Band& band)
@@ -113,23 +120,6 @@ const std::vector<int>& WallQuery::list(const BarrierMesh& mesh, const VehicleSt
   return near_;
 }
 
-std::optional<WallSegment> WallQuery::cut(const Barrier& barrier, int number, const Wall& wall,
-                                          const VehicleState& state, double reach) const {
-  std::optional<WallSegment> segment;
-  if (const PrimitiveWall* primitive = barrier.primitive()) {
-    segment = primitive->cut(state, low_, high_, radius_ + reach);
-  } else {
-    segment = cutWall(wall, state, low_, high_);
-    if (segment) segment->solid = barrier.mesh()->isSolid();
-  }
-  if (!segment) return std::nullopt;
-  const PlanRectangle around = outline_.enlarged(reach + segment->radius);
-  if (around.misses(segment->start, segment->end)) return std::nullopt;
-  segment->group = barrier.id().value;
-  segment->settings = &barrier.settings(barrier.settingsNumberOf(number));
-  return segment;
-}
-
 PlanRectangle WallQuery::swept(const PlanarMotion& motion, double h) const {
   // A little more than rounding and what counts as a touch.
   constexpr double slack = 1e-6;  // m
@@ -138,6 +128,13 @@ PlanRectangle WallQuery::swept(const PlanarMotion& motion, double h) const {
   all.middle += 0.5 * way;
   all.half += 0.5 * way.cwiseAbs();
   return all;
+}
+
+NearZone WallQuery::nearZone(const PlanarMotion& motion, double speed, double h) const {
+  const PlanRectangle ahead = outline_.enlarged(nearSteps * h * speed);
+  // However fast it turns, the outline stays in its circle.
+  const double circle = outline_.radius() + h * motion.velocity.norm() + touchTolerance;
+  return {.around = hull(ahead, swept(motion, h)), .radius = std::max(ahead.farthest(), circle)};
 }
 
 std::optional<Impact> WallQuery::meanOfContacts(const BarrierMesh& mesh,

@@ -9,8 +9,26 @@
 #include "bumper/response/contact_point.h"
 #include "bumper/response/impact.h"
 #include "vehicle_bodies.h"
+#include "wall_face.h"
 
 namespace bumper {
+
+/// A wall is near if the outline, moving on as now, may come to it within so many steps.
+inline constexpr double nearSteps = 3.0;
+
+/// Where walls are near: the part of a rectangle of the yaw plane that is within a distance of the
+/// mass centre.
+struct NearZone {
+  PlanRectangle around;
+  double radius = 0.0;  ///< m
+
+  [[nodiscard]] bool meets(const WallSegment& wall) const;
+};
+
+/// The part of a face within [low, high] of a vehicle's z axis, laid into its yaw plane; nothing if
+/// the face lies outside. Of one that leans the line is the foremost, as seen from the mass centre.
+std::optional<WallSegment> cutFace(const WallFace& face, const VehicleState& state, double low,
+                                   double high);
 
 /// Asks a barrier what is near one vehicle's outline. Works in the vehicle's own frame: axes
 /// forward, left, up; origin at the mass centre.
@@ -37,16 +55,26 @@ class WallQuery {
   const std::vector<int>& list(const BarrierMesh& mesh, const VehicleState& state,
                                const Margins& margins);
 
-  /// The part of a barrier's wall with that number that is in the outline enlarged by `reach` on
-  /// every side, m, cut to the band and laid into the yaw plane: the whole piece if any of it is.
-  /// Nothing if none is. The segment has no id yet; its group is the barrier's id.
-  [[nodiscard]] std::optional<WallSegment> cut(const Barrier& barrier, int number, const Wall& wall,
-                                               const VehicleState& state, double reach) const;
+  /// The part of a face in the band, laid into the yaw plane; nothing if there is none. The segment
+  /// is without id, group, settings and `solid`.
+  [[nodiscard]] std::optional<WallSegment> cut(const WallFace& face,
+                                               const VehicleState& state) const {
+    return cutFace(face, state, low_, high_);
+  }
+  /// The same of a plane or post, long enough for `reach` beyond the outline, m; nothing if it is
+  /// further away than that.
+  [[nodiscard]] std::optional<WallSegment> cut(const PrimitiveWall& wall, const VehicleState& state,
+                                               double reach) const {
+    return wall.cut(state, low_, high_, radius_ + reach);
+  }
 
   [[nodiscard]] const Outline& outline() const { return outline_; }
   /// What the outline passes over in a step of `h` seconds if nothing stops it. `motion` is in the
   /// vehicle's axes at the step's start.
   [[nodiscard]] PlanRectangle swept(const PlanarMotion& motion, double h) const;
+  /// Where walls are near in a step of `h` seconds: what the outline may come to in nearSteps of
+  /// them at the mass centre's speed, `speed`, and all that it can touch in this one.
+  [[nodiscard]] NearZone nearZone(const PlanarMotion& motion, double speed, double h) const;
   /// Of a sphere around the mass centre that holds the outline over the band, m.
   [[nodiscard]] double radius() const { return radius_; }
 
@@ -79,11 +107,5 @@ class WallQuery {
   dGeomID box_;
   std::vector<int> near_;
 };
-
-/// The part of a wall within [low, high] of a vehicle's z axis, laid into its yaw plane; nothing if
-/// the wall lies outside. Of a wall that leans the line is the foremost, as seen from the mass
-/// centre.
-std::optional<WallSegment> cutWall(const Wall& wall, const VehicleState& state, double low,
-                                   double high);
 
 }  // namespace bumper

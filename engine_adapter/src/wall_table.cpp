@@ -70,14 +70,16 @@ WallTable::WallTable(const std::vector<Wall>& walls, const Scene& scene) {
       indices_.push_back(entry->second);
     }
     const std::uint32_t mesh = scene.triangles[static_cast<std::size_t>(wall.triangle)].mesh;
-    if (runs_.empty() || runs_.back().mesh != mesh) {
-      runs_.push_back({static_cast<std::uint32_t>(records_.size()), mesh});
+    const bool goesOn = !runs_.empty() && runs_.back().mesh == mesh &&
+                        triangle(records_.size() - 1) + 1 == wall.triangle;
+    if (!goesOn) {
+      runs_.push_back({static_cast<std::uint32_t>(records_.size()), mesh, wall.triangle});
     }
-    records_.push_back(
-        {roundedDown(wall.foot - origin_.z()), roundedUp(wall.top - origin_.z()), wall.triangle});
+    records_.push_back({roundedDown(wall.foot - origin_.z()), roundedUp(wall.top - origin_.z())});
   }
   vertices_.shrink_to_fit();
   runs_.shrink_to_fit();
+  findFaces();
 }
 
 Eigen::Vector3d WallTable::corner(std::size_t wall, std::size_t k) const {
@@ -104,16 +106,71 @@ double WallTable::top(std::size_t wall) const {
   return origin_.z() + static_cast<double>(records_[wall].top);
 }
 
-std::uint32_t WallTable::meshOf(std::size_t wall) const {
+// Each face takes up as many of the walls that follow as it can.
+void WallTable::findFaces() {
+  constexpr std::size_t most = 64;
+  for (std::size_t first = 0; first < size();) {
+    faces_.push_back(static_cast<std::uint32_t>(first));
+    WallFace face((*this)[first]);
+    const std::uint32_t mesh = meshOf(first);
+    std::size_t next = first + 1;
+    while (next < size() && next - first < most && meshOf(next) == mesh &&
+           face.add((*this)[next])) {
+      ++next;
+    }
+    first = next;
+  }
+  faces_.shrink_to_fit();
+}
+
+WallTable::Stretch WallTable::faceOf(std::size_t wall) const {
+  const auto next = std::upper_bound(faces_.begin(), faces_.end(), wall);
+  return {*(next - 1), next == faces_.end() ? size() : *next};
+}
+
+WallFace WallTable::face(const Stretch& walls) const {
+  WallFace face((*this)[walls.first]);
+  for (std::size_t wall = walls.first + 1; wall < walls.last; ++wall) face.add((*this)[wall]);
+  return face;
+}
+
+std::size_t WallTable::wallAt(const Stretch& walls, const Eigen::Vector3d& point) const {
+  std::size_t best = walls.first;
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (std::size_t number = walls.first; number < walls.last && deepest < 0.0; ++number) {
+    const Wall wall = (*this)[number];
+    // How far inside all three sides it is.
+    double inside = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d side = wall.corners[(k + 1) % 3] - wall.corners[k];
+      const Eigen::Vector3d inwards = wall.normal.cross(side).normalized();
+      inside = std::min(inside, inwards.dot(point - wall.corners[k]));
+    }
+    if (inside <= deepest) continue;
+    deepest = inside;
+    best = number;
+  }
+  return best;
+}
+
+const WallTable::Run& WallTable::runOf(std::size_t wall) const {
   const auto next =
       std::upper_bound(runs_.begin(), runs_.end(), wall,
                        [](std::size_t wanted, const Run& run) { return wanted < run.firstWall; });
-  return (next - 1)->mesh;
+  return *(next - 1);
+}
+
+std::uint32_t WallTable::meshOf(std::size_t wall) const { return runOf(wall).mesh; }
+
+int WallTable::triangle(std::size_t wall) const {
+  const Run& run = runOf(wall);
+  return run.firstTriangle + static_cast<int>(wall - run.firstWall);
 }
 
 std::size_t WallTable::memory() const {
   return vertices_.capacity() * sizeof(double) + indices_.capacity() * sizeof(dTriIndex) +
-         records_.capacity() * sizeof(Record) + runs_.capacity() * sizeof(Run);
+         records_.capacity() * sizeof(Record) + runs_.capacity() * sizeof(Run) +
+         faces_.capacity() * sizeof(std::uint32_t);
 }
 
 }  // namespace bumper

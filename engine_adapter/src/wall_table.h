@@ -10,6 +10,7 @@
 
 #include "bumper/scenes/scene.h"
 #include "bumper/scenes/walls.h"
+#include "wall_face.h"
 
 namespace bumper {
 
@@ -17,9 +18,10 @@ namespace bumper {
 float roundedDown(double value);
 float roundedUp(double value);
 
-/// Walls in little memory. Corners that are the same are stored once, in double precision around a
-/// local origin, and are what ODE's trimesh is built on; foot and top are kept in single precision,
-/// rounded away from the wall. A wall is put together when it is asked for.
+/// Walls in little memory, and which of them make one face. Corners that are the same are stored
+/// once, in double precision around a local origin, and are what ODE's trimesh is built on; foot
+/// and top are kept in single precision, rounded away from the wall. A wall is put together when it
+/// is asked for.
 class WallTable {
  public:
   WallTable() = default;
@@ -32,7 +34,18 @@ class WallTable {
   [[nodiscard]] std::uint32_t meshOf(std::size_t wall) const;
   [[nodiscard]] double foot(std::size_t wall) const;
   [[nodiscard]] double top(std::size_t wall) const;
-  [[nodiscard]] int triangle(std::size_t wall) const { return records_[wall].triangle; }
+  [[nodiscard]] int triangle(std::size_t wall) const;
+
+  /// Walls that follow one another, of one mesh: [first, last).
+  struct Stretch {
+    std::size_t first;
+    std::size_t last;
+  };
+  /// Which walls make one face with a wall. Every wall belongs to one face.
+  [[nodiscard]] Stretch faceOf(std::size_t wall) const;
+  [[nodiscard]] WallFace face(const Stretch& walls) const;
+  /// Which wall of a face is at a point of it, or next to a point beside it.
+  [[nodiscard]] std::size_t wallAt(const Stretch& walls, const Eigen::Vector3d& point) const;
 
   /// Where the vertices' zero is. It is the world's own for walls near that.
   [[nodiscard]] const Eigen::Vector3d& origin() const { return origin_; }
@@ -67,22 +80,25 @@ class WallTable {
   struct Record {
     float foot;  // above the origin
     float top;
-    std::int32_t triangle;
   };
-  /// Walls of one mesh that follow one another.
+  /// Walls of one mesh whose triangles follow one another.
   struct Run {
     std::uint32_t firstWall;
     std::uint32_t mesh;
+    std::int32_t firstTriangle;
   };
 
   [[nodiscard]] Eigen::Vector3d corner(std::size_t wall, std::size_t k) const;
+  [[nodiscard]] const Run& runOf(std::size_t wall) const;
   void chooseOrigin(const std::vector<Wall>& walls);
+  void findFaces();
 
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::vector<double> vertices_;
   std::vector<dTriIndex> indices_;
   std::vector<Record> records_;
   std::vector<Run> runs_;
+  std::vector<std::uint32_t> faces_;  // the first wall of each
 };
 
 }  // namespace bumper

@@ -183,7 +183,9 @@ void CollisionStep::findTouched(double time) {
     wall.touched = overlap.has_value();
     wall.hidden = false;
     wall.struck = false;
-    if (overlap) wall.overlap = *overlap;
+    if (!overlap) continue;
+    wall.overlap = *overlap;
+    wall.points = touchingPoints(outline_, place_, wall.segment, *overlap);
   }
 }
 
@@ -194,12 +196,11 @@ CollisionStep::Approach CollisionStep::approach(const ContactPoint& contact,
 
 // Of the point of first touch and what else touches: the first if it approaches, else the fastest.
 CollisionStep::Approach CollisionStep::touching(const Wall& wall) const {
-  const Overlap& overlap = wall.overlap;
-  Approach best = approach(firstPoint(motion_.position, overlap), overlap.normal);
+  const std::span<const ContactPoint> points = wall.points.all();
+  Approach best = approach(points.front(), wall.overlap.normal);
   if (best.speed > restTolerance) return best;
-  const ContactPoints points = touchingPoints(outline_, place_, wall.segment, overlap);
-  for (std::size_t k = 0; k < points.count; ++k) {
-    const Approach point = approach(points.points[k], overlap.normal);
+  for (const ContactPoint& other : points.subspan(1)) {
+    const Approach point = approach(other, wall.overlap.normal);
     if (point.speed > best.speed) best = point;
   }
   return best;
@@ -367,9 +368,7 @@ void CollisionStep::answerTogether(double time) {
       points[count] = {.normal = wall.overlap.normal, .arm = contact.arm};
       owners[count++] = {.wall = &wall, .at = approach(contact, wall.overlap.normal)};
     };
-    add(firstPoint(motion_.position, wall.overlap));
-    const ContactPoints touching = touchingPoints(outline_, place_, wall.segment, wall.overlap);
-    for (std::size_t k = 0; k < touching.count; ++k) add(touching.points[k]);
+    for (const ContactPoint& point : wall.points.all()) add(point);
   }
   const PlanarImpulse impulse =
       endApproach(motion_, vehicle_.mass, vehicle_.yawInertia, std::span(points.data(), count));
@@ -442,9 +441,7 @@ double CollisionStep::quietTime(const Wall& wall, double h) const {
       time = std::min(time, leastTime(unseenDepth, -overlap.normal.dot(velocity), bend));
     }
   };
-  include(firstPoint(motion_.position, overlap));
-  const ContactPoints points = touchingPoints(outline_, place_, wall.segment, overlap);
-  for (std::size_t k = 0; k < points.count; ++k) include(points.points[k]);
+  for (const ContactPoint& point : wall.points.all()) include(point);
   return time;
 }
 

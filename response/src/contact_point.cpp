@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 namespace bumper {
 
@@ -30,13 +31,28 @@ using WallCorners = std::array<WallCorner, 4>;
 
 WallCorners inWallAxes(const Outline& outline, const Placement& at, const Overlap& line) {
   const Vector2 tangent = turnedLeft(line.normal);
+  const double along = tangent.dot(at.position);
+  const double depth = line.offset - line.normal.dot(at.position);
+  // How the vehicle's axes lie to the wall.
+  const Vector2 forward = at.turned({1.0, 0.0});
+  const double cosine = tangent.dot(forward);
+  const double sine = line.normal.dot(forward);
   const std::array<Vector2, 4> corners = outline.corners();
   WallCorners result;
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Vector2 corner = at.position + at.turned(corners[k]);
-    result[k] = {.along = tangent.dot(corner), .depth = line.offset - line.normal.dot(corner)};
+    const Vector2& corner = corners[k];
+    result[k] = {.along = along + cosine * corner.x() - sine * corner.y(),
+                 .depth = depth - sine * corner.x() - cosine * corner.y()};
   }
   return result;
+}
+
+// The same wall from its other side.
+void turnRound(Overlap& line, WallCorners& corners) {
+  line.normal = -line.normal;
+  line.offset = -line.offset;
+  line.start = -std::exchange(line.end, -line.start);
+  for (WallCorner& corner : corners) corner = {.along = -corner.along, .depth = -corner.depth};
 }
 
 // How deep the outline's boundary lies at a place along the wall; −∞ beside the outline.
@@ -230,10 +246,7 @@ std::optional<Overlap> findTouch(const Outline& outline, const Placement& at,
   const double behind = highest->depth;
   if (std::max(inFront, wall.solid ? inFront : behind) > touchTolerance) return std::nullopt;
   if (!wall.solid && behind > inFront) {
-    WallSegment turned = wall;
-    turned.normal = -wall.normal;
-    face = lineOf(turned, wall.start + turned.normal);
-    corners = inWallAxes(outline, at, face);
+    turnRound(face, corners);
   }
   const double faceDistance = wall.solid ? inFront : std::max(inFront, behind);
 
@@ -296,6 +309,7 @@ ContactPoint contactPoint(const Outline& outline, const Placement& at, const Wal
 ContactPoints touchingPoints(const Outline& outline, const Placement& at, const WallSegment& wall,
                              const Overlap& overlap) {
   ContactPoints found;
+  found.add(firstPoint(at.position, overlap));
   if (wall.isPost()) return found;
   if (overlap.byEnd) {
     for (const Vector2& end : {wall.start, wall.end}) {

@@ -81,8 +81,9 @@ bool ForcePulse::isEmpty() const {
 
 void ForcePulse::turnFrame(double angle) {
   if (isEmpty()) return;
-  const auto turn = [angle](PlanarImpulse& impulse) {
-    impulse.linear = rotated(impulse.linear, -angle);
+  const Placement turned(Vector2::Zero(), angle);
+  const auto turn = [&turned](PlanarImpulse& impulse) {
+    impulse.linear = turned.turnedBack(impulse.linear);
   };
   turn(thisStep_);
   turn(nextStep_);

@@ -77,6 +77,7 @@ class CollisionStep {
   struct Wall {
     WallSegment segment;
     Overlap overlap{};       ///< if touched
+    ContactPoints points{};  ///< all that touches, the first point before others; if touched
     bool touched = false;    ///< the outline touches or overlaps it
     bool hidden = false;     ///< … but it lies behind another touched wall
     bool struck = false;     ///< … and `contact` has had an impulse at this instant

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <span>
 
 #include "bumper/response/planar_motion.h"
 #include "bumper/response/vehicle_parameters.h"
@@ -17,6 +18,9 @@ struct PlanRectangle {
   Vector2 middle = Vector2::Zero();
   Vector2 half = Vector2::Zero();
 
+  /// From the frame's origin to the farthest corner, m.
+  [[nodiscard]] double farthest() const { return (middle.cwiseAbs() + half).norm(); }
+
   /// Whether it holds no point of the segment between two points.
   [[nodiscard]] bool misses(const Vector2& from, const Vector2& to) const {
     const Vector2 centre = 0.5 * (from + to) - middle;
@@ -27,6 +31,13 @@ struct PlanRectangle {
            half.x() * std::abs(arm.y()) + half.y() * std::abs(arm.x());
   }
 };
+
+/// The smallest that holds both.
+inline PlanRectangle hull(const PlanRectangle& a, const PlanRectangle& b) {
+  const Vector2 low = (a.middle - a.half).cwiseMin(b.middle - b.half);
+  const Vector2 high = (a.middle + a.half).cwiseMax(b.middle + b.half);
+  return {.middle = 0.5 * (low + high), .half = 0.5 * (high - low)};
+}
 
 /// The vehicle's bounding rectangle in its yaw plane (the paper's Figure 1), m from the mass
 /// centre.
@@ -139,16 +150,18 @@ struct Interference {
 };
 Interference interference(const Outline& outline, const Placement& at, const WallSegment& wall);
 
-/// Up to six contact points.
+/// Up to seven contact points.
 struct ContactPoints {
-  std::array<ContactPoint, 6> points;
+  std::array<ContactPoint, 7> points;
   std::size_t count = 0;
 
   void add(const ContactPoint& point) { points[count++] = point; }
+  [[nodiscard]] std::span<const ContactPoint> all() const { return {points.data(), count}; }
 };
 
-/// All that touches or overlaps along the overlap's normal: the outline's corners behind the wall,
-/// over its length, and the wall's ends behind the outline's sides.
+/// The first point, and after it all that touches or overlaps along the overlap's normal: the
+/// outline's corners behind the wall, over its length, and the wall's ends behind the outline's
+/// sides.
 ContactPoints touchingPoints(const Outline& outline, const Placement& at, const WallSegment& wall,
                              const Overlap& overlap);
 

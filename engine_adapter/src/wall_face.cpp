@@ -1,0 +1,74 @@
+#include "wall_face.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace bumper {
+
+namespace {
+
+// Corners this close are the same, and lie in one plane or line, m.
+constexpr double tolerance = 1e-9;
+
+bool areSame(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return (a - b).squaredNorm() <= tolerance * tolerance;
+}
+
+}  // namespace
+
+WallFace::WallFace(const Wall& wall) : count_(3), normal_(wall.normal) {
+  std::copy(wall.corners.begin(), wall.corners.end(), corners_.begin());
+}
+
+bool WallFace::add(const Wall& wall) {
+  // The same winding, so that what is in front stays in front.
+  if (wall.normal.dot(normal_) <= 0.0) return false;
+  for (const Eigen::Vector3d& corner : wall.corners) {
+    if (std::abs(normal_.dot(corner - corners_[0])) > tolerance) return false;
+  }
+  for (std::size_t side = 0; side < count_; ++side) {
+    const Eigen::Vector3d& from = corners_[side];
+    const Eigen::Vector3d& to = corners_[(side + 1) % count_];
+    for (std::size_t k = 0; k < 3; ++k) {
+      // Of the same winding, it runs along the side the other way.
+      if (!areSame(wall.corners[k], to) || !areSame(wall.corners[(k + 1) % 3], from)) continue;
+      return addCorner(wall.corners[(k + 2) % 3], side);
+    }
+  }
+  return false;
+}
+
+// Puts a corner between the ends of a side, outside of it.
+bool WallFace::addCorner(const Eigen::Vector3d& corner, std::size_t side) {
+  // How far a corner is on the outer side of the line between its neighbours.
+  const auto standsOut = [&](const Eigen::Vector3d& before, const Eigen::Vector3d& middle,
+                             const Eigen::Vector3d& after) {
+    const Eigen::Vector3d line = after - before;
+    return normal_.dot((middle - before).cross(line)) / line.norm();
+  };
+  const auto at = [&](std::size_t k) -> const Eigen::Vector3d& { return corners_[k % count_]; };
+  const double atStart = standsOut(at(side + count_ - 1), at(side), corner);
+  const double atEnd = standsOut(corner, at(side + 1), at(side + 2));
+  if (atStart < -tolerance || atEnd < -tolerance) return false;
+  std::array<Eigen::Vector3d, mostCorners> kept;
+  std::size_t count = 0;
+  const auto keep = [&](const Eigen::Vector3d& each) {
+    if (count < mostCorners) kept[count] = each;
+    ++count;
+  };
+  for (std::size_t k = 0; k < count_; ++k) {
+    // The side's ends are none any more where the outline goes straight on.
+    const bool isStart = k == side;
+    const bool isEnd = k == (side + 1) % count_;
+    const bool goesStraightOn = (isStart && atStart <= tolerance) || (isEnd && atEnd <= tolerance);
+    if (!goesStraightOn) keep(corners_[k]);
+    if (isStart) keep(corner);
+  }
+  if (count > mostCorners) return false;
+  corners_ = kept;
+  count_ = count;
+  return true;
+}
+
+}  // namespace bumper

@@ -1,0 +1,311 @@
+#include "bumper/scenes/wall_plan.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace bumper {
+
+namespace {
+
+using Vector2 = Eigen::Vector2d;
+
+// How far walls may lie from the line that stands for them, m.
+constexpr double coarseness = 0.05;
+
+// A longer line would be in too many cells, m.
+constexpr double longestLine = 32.0;
+
+constexpr double smallestCell = 8.0;  // m
+
+// Single precision rounds by no more than this part of a number.
+constexpr double rounding = 1.2e-7;
+
+double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+double distance(const Vector2& from, const Vector2& to, const Vector2& point) {
+  const Vector2 along = to - from;
+  const double length2 = along.squaredNorm();
+  const double share =
+      length2 > 0.0 ? std::clamp((point - from).dot(along) / length2, 0.0, 1.0) : 0.0;
+  return (point - from - share * along).norm();
+}
+
+/// A wall in plan: its longest side, and the corner that is left.
+struct Footprint {
+  explicit Footprint(const Wall& wall) {
+    std::array<Vector2, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = wall.corners[k].head<2>();
+    std::size_t third = 0;
+    double longest = -1.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double length = (corners[(k + 2) % 3] - corners[(k + 1) % 3]).norm();
+      if (length <= longest) continue;
+      longest = length;
+      third = k;
+    }
+    from = corners[(third + 1) % 3];
+    to = corners[(third + 2) % 3];
+    other = corners[third];
+  }
+
+  Vector2 from;
+  Vector2 to;
+  Vector2 other;
+};
+
+}  // namespace
+
+/// Puts walls that follow one another into one line as long as it stays true to them.
+class WallPlan::Builder {
+ public:
+  Builder(std::vector<Node>& nodes, const Vector2& origin, double roundingError)
+      : nodes_(nodes), origin_(origin), roundingError_(roundingError) {}
+
+  void add(Footprint wall) {
+    const double width = distance(wall.from, wall.to, wall.other);
+    if (width > coarseness) {
+      finish();
+      addWide(wall);
+      return;
+    }
+    if (!points_.empty()) {
+      if (coversAll(from_, to_, wall)) {
+        keep(wall);
+        return;
+      }
+      // A line that has only begun may go on at either end.
+      const bool goesOnAtStart = isFirst_ && (isAt(from_, wall.from) || isAt(from_, wall.to)) &&
+                                 !isAt(to_, wall.from) && !isAt(to_, wall.to);
+      if (goesOnAtStart) std::swap(from_, to_);
+      if (isAt(to_, wall.to)) std::swap(wall.from, wall.to);
+      if (isAt(to_, wall.from)) {
+        if (canReplaceEnd(wall)) {
+          to_ = wall.to;
+          keep(wall);
+          return;
+        }
+        if (coversAll(to_, wall.to, wall)) {
+          writeLine();
+          begin(to_, wall.to, wall);
+          isFirst_ = false;
+          return;
+        }
+      }
+      finish();
+    }
+    begin(wall.from, wall.to, wall);
+    isFirst_ = true;
+  }
+
+  /// Ends the line that is being put together.
+  void finish() {
+    if (points_.empty()) return;
+    writeLine();
+    writeNode(to_, -1.0);
+    points_.clear();
+  }
+
+ private:
+  static bool isAt(const Vector2& a, const Vector2& b) { return (a - b).norm() <= coarseness; }
+
+  static bool coversAll(const Vector2& from, const Vector2& to, const Footprint& wall) {
+    return distance(from, to, wall.from) <= coarseness &&
+           distance(from, to, wall.to) <= coarseness &&
+           distance(from, to, wall.other) <= coarseness;
+  }
+
+  [[nodiscard]] bool canReplaceEnd(const Footprint& wall) const {
+    return (wall.to - from_).norm() <= longestLine && coversAll(from_, wall.to, wall) &&
+           std::all_of(points_.begin(), points_.end(), [&](const Vector2& point) {
+             return distance(from_, wall.to, point) <= coarseness;
+           });
+  }
+
+  void begin(const Vector2& from, const Vector2& to, const Footprint& wall) {
+    points_.clear();
+    from_ = from;
+    to_ = to;
+    keep(wall);
+  }
+
+  void keep(const Footprint& wall) {
+    for (const Vector2& point : {wall.from, wall.to, wall.other}) {
+      if (std::find(points_.begin(), points_.end(), point) == points_.end()) {
+        points_.push_back(point);
+      }
+    }
+  }
+
+  // The line that is being put together, without its end.
+  void writeLine() {
+    double thickness = 0.0;
+    for (const Vector2& point : points_) {
+      thickness = std::max(thickness, distance(from_, to_, point));
+    }
+    writeNode(from_, thickness + roundingError_);
+  }
+
+  // One that leans: the line runs along the middle of its triangle.
+  void addWide(const Footprint& wall) {
+    const Vector2 along = wall.to - wall.from;
+    const Vector2 foot =
+        wall.from + (wall.other - wall.from).dot(along) / along.squaredNorm() * along;
+    const Vector2 aside = 0.5 * (wall.other - foot);
+    writeNode(wall.from + aside, aside.norm() + roundingError_);
+    writeNode(wall.to + aside, -1.0);
+  }
+
+  void writeNode(const Vector2& place, double thickness) {
+    const Vector2 local = place - origin_;
+    nodes_.push_back({static_cast<float>(local.x()), static_cast<float>(local.y()),
+                      static_cast<float>(thickness)});
+  }
+
+  std::vector<Node>& nodes_;
+  Vector2 origin_;
+  double roundingError_;  // of a node's place and thickness, m
+
+  Vector2 from_ = Vector2::Zero();
+  Vector2 to_ = Vector2::Zero();
+  std::vector<Vector2> points_;  // that the line stands for; none: there is no line
+  bool isFirst_ = true;          // no line before leads to `from_`
+};
+
+WallPlan::WallPlan(const std::vector<Wall>& walls) {
+  if (walls.empty()) return;
+  Vector2 low = walls.front().corners[0].head<2>();
+  Vector2 high = low;
+  for (const Wall& wall : walls) {
+    for (const Eigen::Vector3d& corner : wall.corners) {
+      low = low.cwiseMin(corner.head<2>());
+      high = high.cwiseMax(corner.head<2>());
+    }
+  }
+  origin_ = low;
+  const double farthest = (high - low).maxCoeff();
+  Builder builder(nodes_, origin_, 2.0 * rounding * farthest + 1e-9);
+  for (const Wall& wall : walls) builder.add(Footprint(wall));
+  builder.finish();
+  nodes_.shrink_to_fit();
+  size_ = high - low;
+  sortIntoCells();
+}
+
+void WallPlan::sortIntoCells() {
+  lines_ = static_cast<std::size_t>(std::count_if(
+      nodes_.begin(), nodes_.end(), [](const Node& node) { return node.thickness >= 0.0F; }));
+  // About as many cells as lines, also where all of them lie in a row.
+  const auto count = static_cast<double>(lines_);
+  cell_ = std::max(
+      {smallestCell, std::sqrt(size_.x() * size_.y() / count), (size_.x() + size_.y()) / count});
+  columns_ = static_cast<std::size_t>(size_.x() / cell_) + 1;
+  rows_ = static_cast<std::size_t>(size_.y() / cell_) + 1;
+  std::vector<std::vector<Run>> runsOf(columns_ * rows_);
+  for (std::uint32_t i = 0; i + 1 < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    if (node.thickness < 0.0F) continue;
+    const Vector2 from(node.x, node.y);
+    const Vector2 to(nodes_[i + 1].x, nodes_[i + 1].y);
+    const double around = static_cast<double>(node.thickness);
+    const Vector2 low = from.cwiseMin(to).array() - around;
+    const Vector2 high = from.cwiseMax(to).array() + around;
+    for (std::size_t row = rowAt(low.y()); row <= rowAt(high.y()); ++row) {
+      for (std::size_t column = columnAt(low.x()); column <= columnAt(high.x()); ++column) {
+        const Vector2 middle((static_cast<double>(column) + 0.5) * cell_,
+                             (static_cast<double>(row) + 0.5) * cell_);
+        // Outermost cells take what rounding has put beyond them; they lie along the edge.
+        const double halfDiagonal = 0.70711 * cell_ + around + 1e-6 * cell_;
+        if (std::abs(cross(to - from, middle - from)) > halfDiagonal * (to - from).norm()) continue;
+        std::vector<Run>& runs = runsOf[row * columns_ + column];
+        if (!runs.empty() && runs.back().first + runs.back().count == i) {
+          ++runs.back().count;
+        } else {
+          runs.push_back({i, 1});
+        }
+      }
+    }
+  }
+  firstRun_.reserve(runsOf.size() + 1);
+  for (const std::vector<Run>& runs : runsOf) {
+    firstRun_.push_back(static_cast<std::uint32_t>(runs_.size()));
+    runs_.insert(runs_.end(), runs.begin(), runs.end());
+  }
+  firstRun_.push_back(static_cast<std::uint32_t>(runs_.size()));
+  runs_.shrink_to_fit();
+}
+
+std::size_t WallPlan::columnAt(double x) const {
+  return static_cast<std::size_t>(std::clamp(x / cell_, 0.0, static_cast<double>(columns_ - 1)));
+}
+
+std::size_t WallPlan::rowAt(double y) const {
+  return static_cast<std::size_t>(std::clamp(y / cell_, 0.0, static_cast<double>(rows_ - 1)));
+}
+
+// Lowers `until` to where the first of the lines begins that is in the strip.
+void WallPlan::lookAt(const Run& run, const PlanStrip& strip, double& until) const {
+  const double offsetX = origin_.x() - strip.origin.x();
+  const double offsetY = origin_.y() - strip.origin.y();
+  // In the strip's own axes.
+  const auto placed = [&](const Node& node) -> Vector2 {
+    const double x = static_cast<double>(node.x) + offsetX;
+    const double y = static_cast<double>(node.y) + offsetY;
+    return {strip.direction.x() * x + strip.direction.y() * y,
+            strip.direction.x() * y - strip.direction.y() * x};
+  };
+  const Node* node = &nodes_[run.first];
+  Vector2 to = placed(*node);
+  for (std::uint32_t i = 0; i < run.count; ++i, ++node) {
+    const Vector2 from = to;
+    to = placed(node[1]);
+    const double thickness = static_cast<double>(node->thickness);
+    const double width = strip.halfWidth + thickness;
+    double first = std::min(from.x(), to.x());
+    double last = std::max(from.x(), to.x());
+    if (first - thickness > until || last + thickness < strip.start) continue;
+    const double right = std::min(from.y(), to.y());
+    const double left = std::max(from.y(), to.y());
+    if (right > width || left < -width) continue;
+    if (right < -width || left > width) {
+      // The part of it over the strip's width.
+      const double slope = (to.x() - from.x()) / (to.y() - from.y());
+      const double atRight = from.x() + (std::max(right, -width) - from.y()) * slope;
+      const double atLeft = from.x() + (std::min(left, width) - from.y()) * slope;
+      first = std::min(atRight, atLeft);
+      last = std::max(atRight, atLeft);
+      if (last + thickness < strip.start) continue;
+    }
+    until = std::min(until, first - thickness);
+  }
+}
+
+double WallPlan::freeUntil(const PlanStrip& strip) const {
+  double until = strip.end;
+  if (runs_.empty()) return until;
+  const Vector2 begin = strip.origin - origin_ + strip.start * strip.direction;
+  const Vector2 end = strip.origin - origin_ + strip.end * strip.direction;
+  const Vector2 across = (strip.halfWidth + coarseness) * strip.direction.cwiseAbs().reverse();
+  const Vector2 low = begin.cwiseMin(end) - across;
+  const Vector2 high = begin.cwiseMax(end) + across;
+  if (!(low.allFinite() && high.allFinite())) return -std::numeric_limits<double>::infinity();
+  if (high.x() < 0.0 || high.y() < 0.0 || low.x() > size_.x() || low.y() > size_.y()) return until;
+  const std::size_t left = columnAt(low.x());
+  const std::size_t right = columnAt(high.x());
+  const std::size_t top = rowAt(high.y());
+  for (std::size_t row = rowAt(low.y()); row <= top; ++row) {
+    const std::size_t first = firstRun_[row * columns_ + left];
+    const std::size_t last = firstRun_[row * columns_ + right + 1];
+    for (std::size_t k = first; k < last; ++k) lookAt(runs_[k], strip, until);
+  }
+  return until;
+}
+
+std::size_t WallPlan::memory() const {
+  return nodes_.capacity() * sizeof(Node) + firstRun_.capacity() * sizeof(std::uint32_t) +
+         runs_.capacity() * sizeof(Run);
+}
+
+}  // namespace bumper
