@@ -148,24 +148,35 @@ bool NearbyWalls::collect(WallQuery& query, const std::vector<std::unique_ptr<Ba
   const double reach = std::max(question.reach, beyond);
   if (!covers(query, state, reach)) list(query, barriers, state, reach);
   for (Near& each : faces_) each.isCut = false;
-  const bool near = anyIn(question.zone, query, state, reach);
-  const auto mayBeTouched = [&](const Near& each) {
-    return mayMeet(each, query, state, question.swept);
+  segments.clear();
+  const bool isWanted = question.evenIfNoneIsTouched || mayTouchAgain_;
+  bool near = false;
+  if (!isWanted) {
+    near = anyIn(question.zone, query, state, reach);
+    const auto mayBeTouched = [&](const Near& each) {
+      return mayMeet(each, query, state, question.swept);
+    };
+    if (!near || std::none_of(faces_.begin(), faces_.end(), mayBeTouched)) return near;
+  }
+  const auto meets = [](PlanRectangle rectangle, const WallSegment& piece) {
+    rectangle.half.array() += piece.radius;
+    return !rectangle.misses(piece.start, piece.end);
   };
-  const bool isWanted = question.evenIfNoneIsTouched ||
-                        (near && std::any_of(faces_.begin(), faces_.end(), mayBeTouched));
-  if (!isWanted) return near;
   const PlanRectangle within = query.outline().enlarged(question.reach);
+  const PlanRectangle all = hull(within, zone);
+  bool mayTouch = false;
   for (std::size_t i = 0; i < faces_.size(); ++i) {
-    if (!mayMeet(faces_[i], query, state, within)) continue;
+    if (!mayMeet(faces_[i], query, state, all)) continue;
     const std::optional<WallSegment>& piece = pieceOf(faces_[i], query, state, reach);
     if (!piece) continue;
-    PlanRectangle around = within;
-    around.half.array() += piece->radius;
-    if (around.misses(piece->start, piece->end)) continue;
+    near = near || question.zone.meets(*piece);
+    if (!meets(within, *piece)) continue;
+    mayTouch = mayTouch || meets(question.swept, *piece);
     segments.push_back(*piece);
     segments.back().id = static_cast<int>(i);
   }
+  mayTouchAgain_ = mayTouch;
+  if (!mayTouch && !question.evenIfNoneIsTouched) segments.clear();
   return near;
 }
 

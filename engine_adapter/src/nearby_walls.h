@@ -80,6 +80,8 @@ class NearbyWalls {
   WallQuery::Margins margins_;                          // and how far it reaches beyond the outline
   std::vector<Near> faces_;
   std::size_t lastNear_ = 0;  // a face that was near, to be asked first
+  // So it was in the last step: looking at all at once is then the shortest way.
+  bool mayTouchAgain_ = false;
 };
 
 }  // namespace bumper

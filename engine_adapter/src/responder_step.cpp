@@ -70,9 +70,9 @@ double gravityOf(dWorldID world) {
   return toVector(gravity).norm();
 }
 
-// By how much the vehicle's axes have turned in its yaw plane, rad.
-double turnSince(const Eigen::Matrix3d& before, const Eigen::Matrix3d& now) {
-  return std::atan2(before.col(1).dot(now.col(0)), before.col(0).dot(now.col(0)));
+// Where the vehicle's forward axis points now in the yaw plane that it had before, unit.
+Vector2 aheadSince(const Eigen::Matrix3d& before, const Eigen::Matrix3d& now) {
+  return (before.transpose() * now.col(0)).head<2>().normalized();
 }
 
 }  // namespace
@@ -321,7 +321,7 @@ void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
   const bool delivering = !memory.pulse.isEmpty();
   if (delivering) {
     vehicle.memoryBefore = memory;
-    memory.pulse.turnFrame(turnSince(memory.delivery.axes, known.axes));
+    memory.pulse.turnFrame(aheadSince(memory.delivery.axes, known.axes));
   }
   const bool upright = vehicle.isUpright();
   const bool exact = options.contactSource == ContactSource::exact_cut;

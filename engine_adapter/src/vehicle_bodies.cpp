@@ -16,12 +16,15 @@ double massOf(dBodyID body) {
   return mass.mass;
 }
 
-// Inertia about the body's origin, which ODE requires to be its mass centre, in world axes.
-Eigen::Matrix3d inertiaOf(dBodyID body) {
+// The torque that gives a body an angular acceleration, by the inertia about its origin, which ODE
+// requires to be its mass centre.
+Eigen::Vector3d torqueFor(dBodyID body, const Eigen::Vector3d& acceleration) {
   dMass mass;
   dBodyGetMass(body, &mass);
   const Eigen::Matrix3d rotation = toMatrix(dBodyGetRotation(body));
-  return rotation * toMatrix(mass.I) * rotation.transpose();
+  const Eigen::Vector3d inOwnAxes = rotation.transpose() * acceleration;
+  const Eigen::Vector3d torque = toMatrix(mass.I) * inOwnAxes;
+  return rotation * torque;
 }
 
 }  // namespace
@@ -89,7 +92,7 @@ void VehicleBodies::push(const VehicleState& state, const PlanarForce& force) co
   for (dBodyID body : bodies_) {
     const Eigen::Vector3d arm = toVector(dBodyGetPosition(body)) - state.massCentre;
     const Eigen::Vector3d share = massOf(body) * (acceleration + turning.cross(arm));
-    const Eigen::Vector3d torque = inertiaOf(body) * turning;
+    const Eigen::Vector3d torque = torqueFor(body, turning);
     // ODE keeps the force of a sleeping body until it wakes by other means.
     if (dBodyIsEnabled(body) == 0) dBodyEnable(body);
     dBodyAddForce(body, share.x(), share.y(), share.z());

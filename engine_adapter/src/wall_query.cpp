@@ -131,7 +131,7 @@ PlanRectangle WallQuery::swept(const PlanarMotion& motion, double h) const {
 }
 
 NearZone WallQuery::nearZone(const PlanarMotion& motion, double speed, double h) const {
-  const PlanRectangle ahead = outline_.enlarged(nearSteps * h * speed);
+  const PlanRectangle ahead = outline_.enlarged(nearTime(h) * speed);
   // However fast it turns, the outline stays in its circle.
   const double circle = outline_.radius() + h * motion.velocity.norm() + touchTolerance;
   return {.around = hull(ahead, swept(motion, h)), .radius = std::max(ahead.farthest(), circle)};

@@ -2,6 +2,7 @@
 
 #include <ode/ode.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -13,8 +14,9 @@
 
 namespace bumper {
 
-/// A wall is near if the outline, moving on as now, may come to it within so many steps.
-inline constexpr double nearSteps = 3.0;
+/// A wall is near if the outline may come to it within this time, s, at the mass centre's speed:
+/// two steps, so that one is seen before any impact, and more of them where steps are short.
+inline double nearTime(double step) { return std::max(2.0 * step, 0.008); }
 
 /// Where walls are near: the part of a rectangle of the yaw plane that is within a distance of the
 /// mass centre.
@@ -72,8 +74,8 @@ class WallQuery {
   /// What the outline passes over in a step of `h` seconds if nothing stops it. `motion` is in the
   /// vehicle's axes at the step's start.
   [[nodiscard]] PlanRectangle swept(const PlanarMotion& motion, double h) const;
-  /// Where walls are near in a step of `h` seconds: what the outline may come to in nearSteps of
-  /// them at the mass centre's speed, `speed`, and all that it can touch in this one.
+  /// Where walls are near in a step of `h` seconds: what the outline may come to within nearTime()
+  /// at the mass centre's speed, `speed`, and all that it can touch in this step.
   [[nodiscard]] NearZone nearZone(const PlanarMotion& motion, double speed, double h) const;
   /// Of a sphere around the mass centre that holds the outline over the band, m.
   [[nodiscard]] double radius() const { return radius_; }

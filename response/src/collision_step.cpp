@@ -138,8 +138,13 @@ void CollisionStep::mergeWalls(std::span<const WallSegment> walls, const Vector2
     const Vector2 tangent = turnedLeft(wall->normal);
     if (tangent.dot(piece.end) > tangent.dot(wall->end)) wall->end = piece.end;
   }
-  walls_.clear();
-  for (const WallSegment& wall : merged_) walls_.push_back({.segment = wall});
+  // The rest of a wall is written when it is looked at.
+  walls_.resize(merged_.size());
+  for (std::size_t i = 0; i < merged_.size(); ++i) {
+    walls_[i].segment = merged_[i];
+    walls_[i].passed = false;
+    walls_[i].unheardOf = 0.0;
+  }
 }
 
 // An end from which another wall leads further into the outline is no end that could be hit.
@@ -228,8 +233,12 @@ CollisionStep::Approach CollisionStep::middleOfChain(const Wall& struck, double 
   Vector2 middle = Vector2::Zero();
   Vector2 normal = Vector2::Zero();
   double total = 0.0;
-  const auto facing = [&](const Wall& wall) {
-    return &wall == &struck ? first.normal : lineOf(wall.segment, motion_.position).normal;
+  const auto facing = [&](const Wall& wall) -> Vector2 {
+    if (&wall == &struck) return first.normal;
+    const WallSegment& segment = wall.segment;
+    const bool behind =
+        !segment.solid && (motion_.position - segment.start).dot(segment.normal) < 0.0;
+    return behind ? Vector2(-segment.normal) : segment.normal;
   };
   const auto include = [&](const Wall& wall) {
     const Interference inside = interference(outline_, moved, wall.segment);

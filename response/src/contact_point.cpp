@@ -118,13 +118,12 @@ struct Separation {
   double distance = -std::numeric_limits<double>::infinity();
 };
 Separation separationFrom(const Outline& outline, const Vector2& a, const Vector2& b) {
-  const std::array<Side, 4> sides = sidesOf(outline);
-  Separation most;
-  for (std::size_t k = 0; k < sides.size(); ++k) {
-    const double distance = std::min(sides[k].out.dot(a), sides[k].out.dot(b)) - sides[k].reach;
-    if (distance > most.distance) most = {.side = k, .distance = distance};
-  }
-  return most;
+  // In the order of sidesOf().
+  const std::array<double, 4> distances = {
+      std::min(a.x(), b.x()) - outline.front, -std::max(a.x(), b.x()) - outline.rear,
+      std::min(a.y(), b.y()) - outline.halfWidth, -std::max(a.y(), b.y()) - outline.halfWidth};
+  const auto most = std::max_element(distances.begin(), distances.end());
+  return {.side = static_cast<std::size_t>(most - distances.begin()), .distance = *most};
 }
 
 // An end of a wall, or a post, at a point of the outline.

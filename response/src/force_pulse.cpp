@@ -79,11 +79,9 @@ bool ForcePulse::isEmpty() const {
   return longCount_ == 0 && isZero(thisStep_) && isZero(nextStep_);
 }
 
-void ForcePulse::turnFrame(double angle) {
-  if (isEmpty()) return;
-  const Placement turned(Vector2::Zero(), angle);
-  const auto turn = [&turned](PlanarImpulse& impulse) {
-    impulse.linear = turned.turnedBack(impulse.linear);
+void ForcePulse::turnFrame(const Vector2& ahead) {
+  const auto turn = [&ahead](PlanarImpulse& impulse) {
+    impulse.linear = {ahead.dot(impulse.linear), cross(ahead, impulse.linear)};
   };
   turn(thisStep_);
   turn(nextStep_);

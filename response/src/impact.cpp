@@ -22,8 +22,6 @@ ContactSolution answerByRestitution(const ContactMobility& mobility,
              : solveRestitution(mobility, velocity, restitution, friction);
 }
 
-const ContactBody fixedBarrier;
-
 ContactBody bodyAt(const Impact& impact, const PlanarMotion& motion, double mass,
                    double yawInertia) {
   return {.inverseMass = 1.0 / mass,
@@ -77,8 +75,8 @@ AnglesOfAttack anglesOfAttack(const Impact& impact, const PlanarMotion& motion) 
 ImpactResponse respond(const Impact& impact, const PlanarMotion& motion, double mass,
                        double yawInertia, const ResponseSettings& settings, Rebound rebound) {
   const ContactBody vehicle = bodyAt(impact, motion, mass, yawInertia);
-  const ContactMobility mobility = contactMobility(vehicle, fixedBarrier, impact.normal);
-  const ContactVelocity velocity = contactVelocity(vehicle, fixedBarrier, impact.normal);
+  const ContactMobility mobility = contactMobility(vehicle, impact.normal);
+  const ContactVelocity velocity = contactVelocity(vehicle, impact.normal);
   const double energyBefore = yawPlaneEnergy(motion, mass, yawInertia);
 
   ImpactResponse response = before(motion, velocity);
@@ -121,15 +119,14 @@ ImpactResponse respond(const Impact& impact, const PlanarMotion& motion, double 
 ImpactResponse plainResponse(const Impact& impact, const PlanarMotion& motion, double mass,
                              double yawInertia, const PlanarImpulse& impulse) {
   const ContactBody vehicle = bodyAt(impact, motion, mass, yawInertia);
-  const ContactVelocity velocity = contactVelocity(vehicle, fixedBarrier, impact.normal);
+  const ContactVelocity velocity = contactVelocity(vehicle, impact.normal);
   ImpactResponse response = before(motion, velocity);
   response.energyAsked = std::numeric_limits<double>::quiet_NaN();
   response.contact.impulse = {.normal = impulse.linear.dot(impact.normal),
                               .tangent = impulse.linear.dot(turnedLeft(impact.normal))};
   response.contact.criticalRatio = std::numeric_limits<double>::quiet_NaN();
   apply(response, impulse, mass, yawInertia);
-  response.contact.velocityAfter = contactVelocity(bodyAt(impact, response.after, mass, yawInertia),
-                                                   fixedBarrier, impact.normal);
+  response.contact.velocityAfter = contactVelocity(bodyAt(impact, response.after, mass, yawInertia), impact.normal);
   response.contact.energyChange =
       yawPlaneEnergy(response.after, mass, yawInertia) - yawPlaneEnergy(motion, mass, yawInertia);
   response.contact.regime = Regime::sticking;

@@ -145,6 +145,18 @@ double cornerOnPost(const Flight& flight, const Vector2& corner, const WallSegme
                      until);
 }
 
+// Whether a distance keeps its sign for `time` seconds, whose rate now is `rate` and changes by no
+// more than `bend`. It shrinks faster and faster at most, so that its least is at the beginning or
+// the end.
+bool keepsSign(double distance, double rate, double bend, double time) {
+  constexpr double open = 2.0 * touchTolerance;
+  if (distance < 0.0) {
+    distance = -distance;
+    rate = -rate;
+  }
+  return distance > open && distance + (rate - 0.5 * bend * time) * time > open;
+}
+
 }  // namespace
 
 double leastTime(double distance, double rate, double bend) {
@@ -196,9 +208,13 @@ double Sweep::timeOfTouch(const WallSegment& wall, const Overlap* touch, double 
       consider(cornerOnPost(flight, corner, wall, first));
       continue;
     }
-    const Vector2 place = flight.first.position + flight.first.turned(corner);
+    const Vector2 arm = flight.first.turned(corner);
+    const Vector2 place = flight.first.position + arm;
     double height = wall.normal.dot(place - wall.start);
     if (std::abs(height) > way) continue;
+    const double rate = wall.normal.dot(velocityAt(motion_, arm));
+    const double bend = flight.turning * flight.turning * outline_.radius();
+    if (keepsSign(height, rate, bend, until - from)) continue;
     if (std::abs(cross(wall.normal, place - middle)) > halfLength + way) continue;
     // A corner comes from the side that it is on, unless it has gone in a little.
     double front = 1.0;
@@ -225,14 +241,19 @@ double Sweep::timeOfTouch(const WallSegment& wall, const Overlap* touch, double 
   };
   const auto considerSides = [&](const Vector2& point, const Vector2& local) {
     // As seen from the turning vehicle the point moves no faster than that.
+    const double farthest = local.norm() + way;
     const double itsWay =
-        (speed_ + flight.turning * (local.norm() + way)) * (until - from) + 2.0 * touchTolerance;
+        (speed_ + flight.turning * farthest) * (until - from) + 2.0 * touchTolerance;
+    const Vector2 rate =
+        -flight.first.turnedBack(motion_.velocity) - motion_.yawRate * turnedLeft(local);
+    const double bend = flight.turning * (2.0 * speed_ + flight.turning * farthest);
     for (const Side& side : sides) {
       const double away = side.out.dot(local) - side.reach - wall.radius;
       const double along = turnedLeft(side.out).dot(local);
       if (std::abs(away) > itsWay || std::max(side.low - along, along - side.high) > itsWay) {
         continue;
       }
+      if (keepsSign(away, side.out.dot(rate), bend, until - from)) continue;
       consider(pointOnSide(flight, point, wall, side.out, side.reach, side.low - touchTolerance,
                            side.high + touchTolerance, first));
     }

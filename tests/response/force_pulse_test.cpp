@@ -192,7 +192,7 @@ TEST(ForcePulse, NothingIsLostInAnySequence) {
       }
       if (random.chance(0.3)) {
         const double angle = random.uniform(-3.0, 3.0);
-        pulse.turnFrame(angle);
+        pulse.turnFrame(rotated(Vector2::UnitX(), angle));
         open = turnedBy(open, -angle);
       }
       expectSame(pulse.pending(), open, where + " pending");
@@ -303,7 +303,7 @@ TEST(ForcePulse, TurnsWithTheFrame) {
   pulse.addLong({.linear = {0.0, 50.0}, .angular = 0.0}, 0.0, 0.1);
   const PlanarImpulse before = pulse.pending();
   // The frame's axes turn left, so that an impulse along its old x axis now points to its right.
-  pulse.turnFrame(0.5);
+  pulse.turnFrame(rotated(Vector2::UnitX(), 0.5));
   EXPECT_NEAR((pulse.pending().linear - rotated(before.linear, -0.5)).norm(), 0.0, 1e-12);
   EXPECT_EQ(pulse.pending().angular, before.angular);
 }

@@ -43,18 +43,29 @@ struct ContactImpulse {
   double tangent = 0.0;
 };
 
-/// Sums over both bodies; a barrier adds nothing.
+/// What one body adds; a barrier adds nothing.
+inline ContactMobility contactMobility(const ContactBody& body, const Vector2& normal) {
+  const double armNormal = body.arm.dot(normal);
+  const double armTangent = body.arm.dot(turnedLeft(normal));
+  return {.normal = body.inverseMass + armTangent * armTangent * body.inverseYawInertia,
+          .tangent = body.inverseMass + armNormal * armNormal * body.inverseYawInertia,
+          .coupling = -armNormal * armTangent * body.inverseYawInertia};
+}
+
+/// Of both bodies together.
 inline ContactMobility contactMobility(const ContactBody& vehicle, const ContactBody& other,
                                        const Vector2& normal) {
-  ContactMobility mobility;
-  for (const ContactBody* body : {&vehicle, &other}) {
-    const double armNormal = body->arm.dot(normal);
-    const double armTangent = body->arm.dot(turnedLeft(normal));
-    mobility.normal += body->inverseMass + armTangent * armTangent * body->inverseYawInertia;
-    mobility.tangent += body->inverseMass + armNormal * armNormal * body->inverseYawInertia;
-    mobility.coupling -= armNormal * armTangent * body->inverseYawInertia;
-  }
-  return mobility;
+  const ContactMobility a = contactMobility(vehicle, normal);
+  const ContactMobility b = contactMobility(other, normal);
+  return {.normal = a.normal + b.normal,
+          .tangent = a.tangent + b.tangent,
+          .coupling = a.coupling + b.coupling};
+}
+
+/// Of a body's contact point against what is at rest.
+inline ContactVelocity contactVelocity(const ContactBody& body, const Vector2& normal) {
+  const Vector2 velocity = body.velocity + body.yawRate * turnedLeft(body.arm);
+  return {.normal = velocity.dot(normal), .tangent = velocity.dot(turnedLeft(normal))};
 }
 
 inline ContactVelocity contactVelocity(const ContactBody& vehicle, const ContactBody& other,

@@ -46,8 +46,8 @@ class ForcePulse {
   [[nodiscard]] PlanarImpulse pending() const;
   [[nodiscard]] bool isEmpty() const;
 
-  /// Writes all impulses in a frame that is turned by `angle`, rad, positive to the left.
-  void turnFrame(double angle);
+  /// Writes all impulses in a frame whose x axis points along `ahead`, unit, in the old one.
+  void turnFrame(const Vector2& ahead);
 
   /// Forgets what is pending: the vehicle was moved by other means.
   void drop();
