@@ -276,7 +276,7 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
   self.vehicles.push_back(std::move(vehicle));
   // So that step() need not allocate when the first vehicle hits the first wall.
   self.events.reserve(CollisionStep::maxImpacts + 8 * self.vehicles.size());
-  self.segments.reserve(512);
+  self.segments.reserve(128);
   self.active.resize(self.vehicles.size());
   return {id};
 }

@@ -19,6 +19,11 @@ bool areSame(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 WallFace::WallFace(const Wall& wall) : count_(3), normal_(wall.normal) {
   std::copy(wall.corners.begin(), wall.corners.end(), corners_.begin());
+  along_ = Eigen::Vector3d::UnitZ().cross(normal_).normalized();
+  const auto [first, last] =
+      std::minmax({along_.dot(corners_[0]), along_.dot(corners_[1]), along_.dot(corners_[2])});
+  start_ = first;
+  end_ = last;
 }
 
 bool WallFace::add(const Wall& wall) {
@@ -26,6 +31,8 @@ bool WallFace::add(const Wall& wall) {
   if (wall.normal.dot(normal_) <= 0.0) return false;
   for (const Eigen::Vector3d& corner : wall.corners) {
     if (std::abs(normal_.dot(corner - corners_[0])) > tolerance) return false;
+    const double place = along_.dot(corner);
+    if (place < start_ - tolerance || place > end_ + tolerance) return false;
   }
   for (std::size_t side = 0; side < count_; ++side) {
     const Eigen::Vector3d& from = corners_[side];

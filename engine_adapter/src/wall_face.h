@@ -9,16 +9,17 @@
 
 namespace bumper {
 
-/// Walls in one plane that together are a convex polygon: a panel's two triangles, or a stretch of
-/// a straight wall.
+/// Walls in one plane that together are a convex polygon, no longer than the first of them: the two
+/// triangles of a panel, or of panels above one another. Not those beside it: a vehicle that leans
+/// meets each piece where that comes closest, and a longer one comes closer somewhere else.
 class WallFace {
  public:
   /// Of no wall.
   WallFace() = default;
   explicit WallFace(const Wall& wall);
 
-  /// Adds a wall whose one side is a side of the polygon, if the whole stays in one plane and
-  /// convex, to a nanometre; else changes nothing and returns false.
+  /// Adds a wall whose one side is a side of the polygon, if the whole stays in one plane, convex
+  /// and no longer, to a nanometre; else changes nothing and returns false.
   bool add(const Wall& wall);
 
   /// In order around it, at most `mostCorners`.
@@ -36,6 +37,9 @@ class WallFace {
   std::array<Eigen::Vector3d, mostCorners> corners_;
   std::size_t count_ = 0;
   Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d along_ = Eigen::Vector3d::Zero();  // horizontal, in the plane
+  double start_ = 0.0;                               // of the polygon, along that
+  double end_ = 0.0;
 };
 
 }  // namespace bumper

@@ -108,33 +108,13 @@ double WallTable::top(std::size_t wall) const {
 
 // Each face takes up as many of the walls that follow as it can.
 void WallTable::findFaces() {
-  constexpr std::size_t most = 32;
   for (std::size_t first = 0; first < size();) {
     faces_.push_back(static_cast<std::uint32_t>(first));
     const std::uint32_t mesh = meshOf(first);
-    std::size_t last = first + 1;
-    while (last < size() && last - first < most && meshOf(last) == mesh) ++last;
     WallFace face((*this)[first]);
-    first = grow(face, first + 1, last);
+    for (++first; first < size() && meshOf(first) == mesh && face.add((*this)[first]);) ++first;
   }
   faces_.shrink_to_fit();
-}
-
-// Adds walls from `next` on, but not `last`, and returns the first that is not in the face.
-std::size_t WallTable::grow(WallFace& face, std::size_t next, std::size_t last) const {
-  while (next < last) {
-    const Wall wall = (*this)[next];
-    if (face.add(wall)) {
-      ++next;
-      continue;
-    }
-    // In a row of panels it may be the second triangle of each that has a side in common.
-    WallFace both = face;
-    if (next + 1 == last || !both.add((*this)[next + 1]) || !both.add(wall)) break;
-    face = both;
-    next += 2;
-  }
-  return next;
 }
 
 WallTable::Stretch WallTable::faceOf(std::size_t wall) const {
@@ -144,7 +124,7 @@ WallTable::Stretch WallTable::faceOf(std::size_t wall) const {
 
 WallFace WallTable::face(const Stretch& walls) const {
   WallFace face((*this)[walls.first]);
-  grow(face, walls.first + 1, walls.last);
+  for (std::size_t wall = walls.first + 1; wall < walls.last; ++wall) face.add((*this)[wall]);
   return face;
 }
 

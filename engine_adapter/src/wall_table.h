@@ -92,7 +92,6 @@ class WallTable {
   [[nodiscard]] const Run& runOf(std::size_t wall) const;
   void chooseOrigin(const std::vector<Wall>& walls);
   void findFaces();
-  std::size_t grow(WallFace& face, std::size_t next, std::size_t last) const;
 
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::vector<double> vertices_;
