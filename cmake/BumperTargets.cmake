@@ -20,6 +20,8 @@ function(bumper_target_options target)
       -Wdouble-promotion
       # Same bits at every optimisation level: no fused multiply-add behind our back.
       -ffp-contract=off
+      # Nobody replaces a function of ours when a program is loaded: they may be inlined.
+      -fno-semantic-interposition
       $<$<BOOL:${BUMPER_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()
 

@@ -18,9 +18,7 @@ double massOf(dBodyID body) {
 
 // The torque that gives a body an angular acceleration, by the inertia about its origin, which ODE
 // requires to be its mass centre.
-Eigen::Vector3d torqueFor(dBodyID body, const Eigen::Vector3d& acceleration) {
-  dMass mass;
-  dBodyGetMass(body, &mass);
+Eigen::Vector3d torqueFor(const dMass& mass, dBodyID body, const Eigen::Vector3d& acceleration) {
   const Eigen::Matrix3d rotation = toMatrix(dBodyGetRotation(body));
   const Eigen::Vector3d inOwnAxes = rotation.transpose() * acceleration;
   const Eigen::Vector3d torque = toMatrix(mass.I) * inOwnAxes;
@@ -91,8 +89,10 @@ void VehicleBodies::push(const VehicleState& state, const PlanarForce& force) co
   const Eigen::Vector3d turning = force.yawMoment / state.yawInertia * state.up();
   for (dBodyID body : bodies_) {
     const Eigen::Vector3d arm = toVector(dBodyGetPosition(body)) - state.massCentre;
-    const Eigen::Vector3d share = massOf(body) * (acceleration + turning.cross(arm));
-    const Eigen::Vector3d torque = torqueFor(body, turning);
+    dMass mass;
+    dBodyGetMass(body, &mass);
+    const Eigen::Vector3d share = mass.mass * (acceleration + turning.cross(arm));
+    const Eigen::Vector3d torque = torqueFor(mass, body, turning);
     // ODE keeps the force of a sleeping body until it wakes by other means.
     if (dBodyIsEnabled(body) == 0) dBodyEnable(body);
     dBodyAddForce(body, share.x(), share.y(), share.z());

@@ -125,25 +125,19 @@ void CollisionStep::mergeWalls(std::span<const WallSegment> walls, const Vector2
   std::sort(order_.begin(), order_.end(), [&others](const Ordered& a, const Ordered& b) {
     return a.place != b.place ? a.place < b.place : others(a) < others(b);
   });
-  merged_.clear();
+  walls_.clear();
   for (const Ordered& each : order_) {
     const WallSegment& piece = oriented_[each.piece];
-    const auto wall = std::find_if(
-        merged_.begin(), merged_.end(),
-        [&piece](const WallSegment& candidate) { return continues(candidate, piece); });
-    if (wall == merged_.end()) {
-      merged_.push_back(piece);
+    const auto wall = std::find_if(walls_.begin(), walls_.end(), [&piece](const Wall& candidate) {
+      return continues(candidate.segment, piece);
+    });
+    if (wall == walls_.end()) {
+      walls_.emplace_back(piece);
       continue;
     }
-    const Vector2 tangent = turnedLeft(wall->normal);
-    if (tangent.dot(piece.end) > tangent.dot(wall->end)) wall->end = piece.end;
-  }
-  // The rest of a wall is written when it is looked at.
-  walls_.resize(merged_.size());
-  for (std::size_t i = 0; i < merged_.size(); ++i) {
-    walls_[i].segment = merged_[i];
-    walls_[i].passed = false;
-    walls_[i].unheardOf = 0.0;
+    WallSegment& whole = wall->segment;
+    const Vector2 tangent = turnedLeft(whole.normal);
+    if (tangent.dot(piece.end) > tangent.dot(whole.end)) whole.end = piece.end;
   }
 }
 

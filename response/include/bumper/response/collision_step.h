@@ -75,9 +75,11 @@ class CollisionStep {
 
   /// A wall nearby, and what is known of the outline in it.
   struct Wall {
+    explicit Wall(const WallSegment& itsSegment) : segment(itsSegment) {}
+
     WallSegment segment;
-    Overlap overlap{};       ///< if touched
-    ContactPoints points{};  ///< all that touches, the first point before others; if touched
+    Overlap overlap{};     ///< if touched
+    ContactPoints points;  ///< all that touches, the first point before others; if touched
     bool touched = false;    ///< the outline touches or overlaps it
     bool hidden = false;     ///< … but it lies behind another touched wall
     bool struck = false;     ///< … and `contact` has had an impulse at this instant
@@ -138,7 +140,6 @@ class CollisionStep {
 
   std::vector<WallSegment> oriented_;
   std::vector<Ordered> order_;
-  std::vector<WallSegment> merged_;
   std::vector<Wall> walls_;
   std::vector<StepImpact> impacts_;
 };
