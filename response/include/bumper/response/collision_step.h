@@ -78,8 +78,8 @@ class CollisionStep {
     explicit Wall(const WallSegment& itsSegment) : segment(itsSegment) {}
 
     WallSegment segment;
-    Overlap overlap{};     ///< if touched
-    ContactPoints points;  ///< all that touches, the first point before others; if touched
+    Overlap overlap{};       ///< if touched
+    ContactPoints points;    ///< all that touches, the first point before others; if touched
     bool touched = false;    ///< the outline touches or overlaps it
     bool hidden = false;     ///< … but it lies behind another touched wall
     bool struck = false;     ///< … and `contact` has had an impulse at this instant
