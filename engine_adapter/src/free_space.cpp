@@ -85,7 +85,7 @@ void FreeSpace::allowMotion(const VehicleState& state, const Room& room) {
   double speed2 = 0.0;
   for (const Body& body : bodies_) speed2 = std::max(speed2, squaredNorm(body.velocity));
   speedWeight_ = 1.0 / square(room.moreSpeed * std::sqrt(speed2) + room.speedAllowance);
-  const double count = static_cast<double>(bodies_.size());
+  const auto count = static_cast<double>(bodies_.size());
   double torque = 0.0;
   for (Body& body : bodies_) {
     body.forceWeight = 1.0 / square(moreForce * std::sqrt(squaredNorm(body.force)) +
@@ -101,7 +101,7 @@ void FreeSpace::allowMotion(const VehicleState& state, const Room& room) {
 bool FreeSpace::fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
                      const VehicleState& state, const Room& room, double gravity, double h) {
   allowMotion(state, room);
-  const double count = static_cast<double>(bodies_.size());
+  const auto count = static_cast<double>(bodies_.size());
   const double speed = 1.0 / std::sqrt(speedWeight_);
   double forces = 0.0;
   double arm = 0.0;

@@ -62,8 +62,7 @@ class FreeSpace {
   [[nodiscard]] bool keepsHeading() const;
   void allowMotion(const VehicleState& state, const Room& room);
   [[nodiscard]] bool fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
-                          const VehicleState& state, const Room& room, double acceleration,
-                          double h);
+                          const VehicleState& state, const Room& room, double gravity, double h);
 
   VehicleParameters parameters_;
   Outline outline_;

@@ -77,14 +77,15 @@ double PrimitiveWall::clearanceAtLeast(const Eigen::Vector3d& place, double heig
 double PrimitiveWall::freeUntil(const PlanStrip& strip, double z, double height) const {
   // Discs in a row.
   const double length = strip.end - strip.start;
-  const double discs = std::max(1.0, std::ceil(length / std::max(2.0 * strip.halfWidth, 1.0)));
+  const auto discs =
+      static_cast<int>(std::ceil(std::max(1.0, length / std::max(2.0 * strip.halfWidth, 1.0))));
   const double half = 0.5 * length / discs;
   const double radius = std::hypot(half, strip.halfWidth);
-  for (double k = 0.0; k < discs; ++k) {
+  for (int k = 0; k < discs; ++k) {
     const double begin = strip.start + 2.0 * k * half;
     const Eigen::Vector2d middle = strip.origin + (begin + half) * strip.direction;
     const bool isFree = clearanceAtLeast({middle.x(), middle.y(), z}, height) > radius;
-    if (!isFree) return k > 0.0 ? begin : -std::numeric_limits<double>::infinity();
+    if (!isFree) return k > 0 ? begin : -std::numeric_limits<double>::infinity();
   }
   return strip.end;
 }

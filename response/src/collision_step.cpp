@@ -132,7 +132,7 @@ void CollisionStep::mergeWalls(std::span<const WallSegment> walls, const Vector2
       return continues(candidate.segment, piece);
     });
     if (wall == walls_.end()) {
-      walls_.emplace_back(piece);
+      walls_.push_back({.segment = piece});
       continue;
     }
     WallSegment& whole = wall->segment;

@@ -122,7 +122,7 @@ Separation separationFrom(const Outline& outline, const Vector2& a, const Vector
   const std::array<double, 4> distances = {
       std::min(a.x(), b.x()) - outline.front, -std::max(a.x(), b.x()) - outline.rear,
       std::min(a.y(), b.y()) - outline.halfWidth, -std::max(a.y(), b.y()) - outline.halfWidth};
-  const auto most = std::max_element(distances.begin(), distances.end());
+  const auto* most = std::max_element(distances.begin(), distances.end());
   return {.side = static_cast<std::size_t>(most - distances.begin()), .distance = *most};
 }
 

@@ -126,7 +126,8 @@ ImpactResponse plainResponse(const Impact& impact, const PlanarMotion& motion, d
                               .tangent = impulse.linear.dot(turnedLeft(impact.normal))};
   response.contact.criticalRatio = std::numeric_limits<double>::quiet_NaN();
   apply(response, impulse, mass, yawInertia);
-  response.contact.velocityAfter = contactVelocity(bodyAt(impact, response.after, mass, yawInertia), impact.normal);
+  response.contact.velocityAfter =
+      contactVelocity(bodyAt(impact, response.after, mass, yawInertia), impact.normal);
   response.contact.energyChange =
       yawPlaneEnergy(response.after, mass, yawInertia) - yawPlaneEnergy(motion, mass, yawInertia);
   response.contact.regime = Regime::sticking;

@@ -61,8 +61,8 @@ struct Footprint {
 /// Puts walls that follow one another into one line as long as it stays true to them.
 class WallPlan::Builder {
  public:
-  Builder(std::vector<Node>& nodes, const Vector2& origin, double roundingError)
-      : nodes_(nodes), origin_(origin), roundingError_(roundingError) {}
+  Builder(std::vector<Node>& nodes, Vector2 origin, double roundingError)
+      : nodes_(nodes), origin_(std::move(origin)), roundingError_(roundingError) {}
 
   void add(Footprint wall) {
     const double width = distance(wall.from, wall.to, wall.other);
@@ -209,7 +209,7 @@ void WallPlan::sortIntoCells() {
     if (node.thickness < 0.0F) continue;
     const Vector2 from(node.x, node.y);
     const Vector2 to(nodes_[i + 1].x, nodes_[i + 1].y);
-    const double around = static_cast<double>(node.thickness);
+    const auto around = static_cast<double>(node.thickness);
     const Vector2 low = from.cwiseMin(to).array() - around;
     const Vector2 high = from.cwiseMax(to).array() + around;
     for (std::size_t row = rowAt(low.y()); row <= rowAt(high.y()); ++row) {
@@ -261,7 +261,7 @@ void WallPlan::lookAt(const Run& run, const PlanStrip& strip, double& until) con
   for (std::uint32_t i = 0; i < run.count; ++i, ++node) {
     const Vector2 from = to;
     to = placed(node[1]);
-    const double thickness = static_cast<double>(node->thickness);
+    const auto thickness = static_cast<double>(node->thickness);
     const double width = strip.halfWidth + thickness;
     double first = std::min(from.x(), to.x());
     double last = std::max(from.x(), to.x());

@@ -75,11 +75,9 @@ class CollisionStep {
 
   /// A wall nearby, and what is known of the outline in it.
   struct Wall {
-    explicit Wall(const WallSegment& itsSegment) : segment(itsSegment) {}
-
     WallSegment segment;
     Overlap overlap{};       ///< if touched
-    ContactPoints points;    ///< all that touches, the first point before others; if touched
+    ContactPoints points{};  ///< all that touches, the first point before others; if touched
     bool touched = false;    ///< the outline touches or overlaps it
     bool hidden = false;     ///< … but it lies behind another touched wall
     bool struck = false;     ///< … and `contact` has had an impulse at this instant
