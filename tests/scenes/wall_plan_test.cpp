@@ -139,7 +139,8 @@ TEST(WallPlan, StripsBetweenWallsThatStandAlone) {
   Scene scene = straightWall({0, 0}, {0, 3}, 1.0);
   for (int i = 1; i < 40; ++i) {
     const double x = 7.3 * (i % 7);
-    const double y = 5.9 * (i / 7);
+    const int row = i / 7;
+    const double y = 5.9 * row;
     const Scene wall = straightWall({x, y}, {x + 2.0, y + 0.3 * i}, 1.0);
     const auto first = static_cast<std::uint32_t>(scene.vertices.size());
     scene.vertices.insert(scene.vertices.end(), wall.vertices.begin(), wall.vertices.end());
