@@ -190,7 +190,7 @@ bool FreeSpace::find(const std::vector<std::unique_ptr<Barrier>>& barriers,
         .turn = 0.02,
         .moreSpeed = 1.06,
         .speedAllowance = 0.1}}};
-  step_ = 0.0;
+  leave();
   if (--stepsUntilLook_ > 0) return false;
   leastUp_ = std::max(std::cos(std::acos(std::clamp(state.up().z(), -1.0, 1.0)) + moreTilt),
                       minUprightness_);

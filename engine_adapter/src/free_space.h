@@ -33,9 +33,12 @@ class FreeSpace {
   bool find(const std::vector<std::unique_ptr<Barrier>>& barriers, const VehicleState& state,
             double gravity, double h, int mostSteps);
 
+  /// The vehicle was not in it: it has to be found anew.
+  void leave() { step_ = 0.0; }
+
   /// Nothing is known: barriers have changed.
   void forget() {
-    step_ = 0.0;
+    leave();
     stepsUntilLook_ = 0;
   }
 

@@ -307,6 +307,7 @@ void Responder::Implementation::give(Vehicle& vehicle, const VehicleState& state
 
 void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
   VehicleMemory& memory = vehicle.memory;
+  vehicle.freeSpace.leave();
   if (vehicle.bodies.areAsleep()) {
     memory.expectation = {};
     return;

@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "box_car.h"
@@ -161,6 +163,45 @@ TEST(SameWall, BreakThrough) {
   EXPECT_EQ(hits, (std::vector<std::string>{"fence", "wall"}));
   EXPECT_NEAR(ratio, 0.6, 1e-12);
   EXPECT_LT(car.velocity().x(), 0.0);
+}
+
+// A panel's triangles are hit as one; the event tells the one at the contact.
+TEST(SameWall, TheTriangleThatIsTold) {
+  const Scene scene = flatWall(2, 1);
+  std::set<int> told;
+  for (double y = -19.0; y <= 19.0; y += 1.9) {
+    OdeWorld ode;
+    Responder responder(ode.world);
+    responder.addBarrier(scene);
+    BoxCar car(ode.world);
+    responder.addVehicle(car.body, car.parameters);
+    // Nose on, but for the angle that makes the contact a corner's.
+    const Eigen::Matrix3d axes =
+        Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    car.place({-2.4, y, 0.55}, axes);
+    car.move(sixtyMph * Eigen::Vector3d::UnitX(), Eigen::Vector3d::Zero());
+    std::vector<ImpactEvent> hits;
+    for (int i = 0; i < 5 && hits.empty(); ++i) {
+      for (const ImpactEvent& event : responder.step(h)) hits.push_back(event);
+      dWorldQuickStep(ode.world, h);
+    }
+    ASSERT_FALSE(hits.empty()) << y;
+    const ImpactEvent& hit = hits.front();
+    told.insert(hit.triangle);
+    const Scene::Triangle& triangle = scene.triangles.at(static_cast<std::size_t>(hit.triangle));
+    // On one side of all three sides, seen along the wall's normal.
+    double least = 1.0;
+    double most = -1.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d from = scene.corner(triangle, k);
+      const Eigen::Vector3d side = scene.corner(triangle, (k + 1) % 3) - from;
+      const double turn = side.cross(Eigen::Vector3d(hit.contact - from)).x();
+      least = std::min(least, turn);
+      most = std::max(most, turn);
+    }
+    EXPECT_TRUE(least >= -1e-9 || most <= 1e-9) << y << ": triangle " << hit.triangle;
+  }
+  EXPECT_EQ(told.size(), 4U);
 }
 
 }  // namespace

@@ -247,5 +247,23 @@ TEST(StepContract, WithoutNoticeTheImpulseWouldDouble) {
   EXPECT_NEAR(car.velocity().x(), -20.0, 1e-9);
 }
 
+// Far from all walls a step is a comparison; a roll-over is told all the same.
+TEST(StepContract, RollingOverFarFromWallsIsTold) {
+  OdeWorld ode;
+  Responder responder(ode.world);
+  responder.addBarrier(straightWall({100.0, -50.0}, {100.0, 50.0}, 1.0));
+  BoxCar car(ode.world);
+  const VehicleId vehicle = responder.addVehicle(car.body, car.parameters);
+  const auto lean = [&](double angle) {
+    car.place({0.0, 0.0, 0.55}, Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()).matrix());
+    responder.step(0.005);
+    return responder.issues(vehicle);
+  };
+  EXPECT_EQ(lean(0.0), step_issue::none);
+  EXPECT_EQ(lean(0.0), step_issue::none);
+  EXPECT_EQ(lean(1.5), step_issue::tilted);
+  EXPECT_EQ(lean(0.0), step_issue::none);
+}
+
 }  // namespace
 }  // namespace bumper::tests
