@@ -65,8 +65,7 @@ double leanAsSeen(double wallLean, double tilt) {
 
 FreeSpace::FreeSpace(const VehicleBodies& bodies, const VehicleParameters& parameters,
                      const Band& band, double minUprightness)
-    : parameters_(parameters),
-      outline_(parameters),
+    : outline_(parameters),
       low_(band.bottom - parameters.massCentreHeight),
       high_(band.top - parameters.massCentreHeight),
       minUprightness_(minUprightness),
@@ -190,7 +189,6 @@ bool FreeSpace::find(const std::vector<std::unique_ptr<Barrier>>& barriers,
         .turn = 0.02,
         .moreSpeed = 1.06,
         .speedAllowance = 0.1}}};
-  leave();
   if (--stepsUntilLook_ > 0) return false;
   leastUp_ = std::max(std::cos(std::acos(std::clamp(state.up().z(), -1.0, 1.0)) + moreTilt),
                       minUprightness_);

@@ -28,8 +28,8 @@ class FreeSpace {
   /// false if in doubt.
   [[nodiscard]] bool holds(double h);
 
-  /// Looks for such room, and returns whether there is. `gravity` is the world's, m/s²; what is
-  /// found serves for no more than `mostSteps`.
+  /// Looks for such room after leave(), and returns whether there is. `gravity` is the world's,
+  /// m/s²; what is found serves for no more than `mostSteps`.
   bool find(const std::vector<std::unique_ptr<Barrier>>& barriers, const VehicleState& state,
             double gravity, double h, int mostSteps);
 
@@ -67,7 +67,6 @@ class FreeSpace {
   [[nodiscard]] bool fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
                           const VehicleState& state, const Room& room, double gravity, double h);
 
-  VehicleParameters parameters_;
   Outline outline_;
   double low_;  // the band in the vehicle's frame
   double high_;

@@ -3,22 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "plan_distance.h"
+
 namespace bumper {
-
-namespace {
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-double distance(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& point) {
-  const Eigen::Vector2d edge = b - a;
-  const double length = edge.squaredNorm();
-  const double way = length > 0.0 ? std::clamp((point - a).dot(edge) / length, 0.0, 1.0) : 0.0;
-  return (point - a - way * edge).norm();
-}
-
-}  // namespace
 
 double clearance(const Wall& wall, const Eigen::Vector2d& point) {
   const Eigen::Vector2d a = wall.corners[0].head<2>();
@@ -28,7 +15,8 @@ double clearance(const Wall& wall, const Eigen::Vector2d& point) {
   const double bc = cross(c - b, point - b);
   const double ca = cross(a - c, point - c);
   if ((ab > 0.0 && bc > 0.0 && ca > 0.0) || (ab < 0.0 && bc < 0.0 && ca < 0.0)) return 0.0;
-  return std::min({distance(a, b, point), distance(b, c, point), distance(c, a, point)});
+  return std::min(
+      {planDistance(a, b, point), planDistance(b, c, point), planDistance(c, a, point)});
 }
 
 double clearance(const std::vector<Wall>& walls, const Eigen::Vector2d& point) {

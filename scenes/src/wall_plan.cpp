@@ -6,11 +6,11 @@
 #include <limits>
 #include <utility>
 
+#include "plan_distance.h"
+
 namespace bumper {
 
 namespace {
-
-using Vector2 = Eigen::Vector2d;
 
 // How far walls may lie from the line that stands for them, m.
 constexpr double coarseness = 0.05;
@@ -22,16 +22,6 @@ constexpr double smallestCell = 8.0;  // m
 
 // Single precision rounds by no more than this part of a number.
 constexpr double rounding = 1.2e-7;
-
-double cross(const Vector2& a, const Vector2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-double distance(const Vector2& from, const Vector2& to, const Vector2& point) {
-  const Vector2 along = to - from;
-  const double length2 = along.squaredNorm();
-  const double share =
-      length2 > 0.0 ? std::clamp((point - from).dot(along) / length2, 0.0, 1.0) : 0.0;
-  return (point - from - share * along).norm();
-}
 
 /// A wall in plan: its longest side, and the corner that is left.
 struct Footprint {
@@ -65,7 +55,7 @@ class WallPlan::Builder {
       : nodes_(nodes), origin_(std::move(origin)), roundingError_(roundingError) {}
 
   void add(Footprint wall) {
-    const double width = distance(wall.from, wall.to, wall.other);
+    const double width = planDistance(wall.from, wall.to, wall.other);
     if (width > coarseness) {
       finish();
       addWide(wall);
@@ -112,15 +102,15 @@ class WallPlan::Builder {
   static bool isAt(const Vector2& a, const Vector2& b) { return (a - b).norm() <= coarseness; }
 
   static bool coversAll(const Vector2& from, const Vector2& to, const Footprint& wall) {
-    return distance(from, to, wall.from) <= coarseness &&
-           distance(from, to, wall.to) <= coarseness &&
-           distance(from, to, wall.other) <= coarseness;
+    return planDistance(from, to, wall.from) <= coarseness &&
+           planDistance(from, to, wall.to) <= coarseness &&
+           planDistance(from, to, wall.other) <= coarseness;
   }
 
   [[nodiscard]] bool canReplaceEnd(const Footprint& wall) const {
     return (wall.to - from_).norm() <= longestLine && coversAll(from_, wall.to, wall) &&
            std::all_of(points_.begin(), points_.end(), [&](const Vector2& point) {
-             return distance(from_, wall.to, point) <= coarseness;
+             return planDistance(from_, wall.to, point) <= coarseness;
            });
   }
 
@@ -143,7 +133,7 @@ class WallPlan::Builder {
   void writeLine() {
     double thickness = 0.0;
     for (const Vector2& point : points_) {
-      thickness = std::max(thickness, distance(from_, to_, point));
+      thickness = std::max(thickness, planDistance(from_, to_, point));
     }
     writeNode(from_, thickness + roundingError_);
   }
