@@ -53,7 +53,7 @@ WallSegment oriented(const WallSegment& wall, const Vector2& centre) {
     result.normal = Vector2::Zero();
     return result;
   }
-  result.normal = lineOf(wall, centre).normal;
+  result.normal = normalTowards(wall, centre);
   const Vector2 tangent = turnedLeft(result.normal);
   if (tangent.dot(wall.start) > tangent.dot(wall.end)) std::swap(result.start, result.end);
   return result;
@@ -228,11 +228,7 @@ CollisionStep::Approach CollisionStep::middleOfChain(const Wall& struck, double 
   Vector2 normal = Vector2::Zero();
   double total = 0.0;
   const auto facing = [&](const Wall& wall) -> Vector2 {
-    if (&wall == &struck) return first.normal;
-    const WallSegment& segment = wall.segment;
-    const bool behind =
-        !segment.solid && (motion_.position - segment.start).dot(segment.normal) < 0.0;
-    return behind ? Vector2(-segment.normal) : segment.normal;
+    return &wall == &struck ? first.normal : normalTowards(wall.segment, motion_.position);
   };
   const auto include = [&](const Wall& wall) {
     const Interference inside = interference(outline_, moved, wall.segment);

@@ -183,10 +183,14 @@ std::array<Vector2, 4> Outline::corners() const {
           Vector2(front, -halfWidth)};
 }
 
+Vector2 normalTowards(const WallSegment& wall, const Vector2& position) {
+  const bool behind = !wall.solid && (position - wall.start).dot(wall.normal) < 0.0;
+  return behind ? Vector2(-wall.normal) : wall.normal;
+}
+
 Overlap lineOf(const WallSegment& wall, const Vector2& position) {
   Overlap line;
-  const bool behind = !wall.solid && (position - wall.start).dot(wall.normal) < 0.0;
-  line.normal = behind ? Vector2(-wall.normal) : wall.normal;
+  line.normal = normalTowards(wall, position);
   line.offset = line.normal.dot(wall.start);
   const Vector2 tangent = turnedLeft(line.normal);
   std::tie(line.start, line.end) = std::minmax({tangent.dot(wall.start), tangent.dot(wall.end)});

@@ -101,6 +101,9 @@ struct Overlap {
                          ///< outline: the normal is not the wall's own
 };
 
+/// A wall's normal towards `position`, unless the wall is solid.
+Vector2 normalTowards(const WallSegment& wall, const Vector2& position);
+
 /// A wall's line as seen from `position`: normal, offset, start and end of an overlap, no more. The
 /// normal points to the side of `position`, unless the wall is solid.
 Overlap lineOf(const WallSegment& wall, const Vector2& position);

@@ -62,18 +62,20 @@ inline ContactMobility contactMobility(const ContactBody& vehicle, const Contact
           .coupling = a.coupling + b.coupling};
 }
 
+/// Of a body's contact point, m/s.
+inline Vector2 pointVelocity(const ContactBody& body) {
+  return body.velocity + body.yawRate * turnedLeft(body.arm);
+}
+
 /// Of a body's contact point against what is at rest.
 inline ContactVelocity contactVelocity(const ContactBody& body, const Vector2& normal) {
-  const Vector2 velocity = body.velocity + body.yawRate * turnedLeft(body.arm);
+  const Vector2 velocity = pointVelocity(body);
   return {.normal = velocity.dot(normal), .tangent = velocity.dot(turnedLeft(normal))};
 }
 
 inline ContactVelocity contactVelocity(const ContactBody& vehicle, const ContactBody& other,
                                        const Vector2& normal) {
-  const auto ofPoint = [](const ContactBody& body) -> Vector2 {
-    return body.velocity + body.yawRate * turnedLeft(body.arm);
-  };
-  const Vector2 relative = ofPoint(vehicle) - ofPoint(other);
+  const Vector2 relative = pointVelocity(vehicle) - pointVelocity(other);
   return {.normal = relative.dot(normal), .tangent = relative.dot(turnedLeft(normal))};
 }
 
