@@ -110,7 +110,7 @@ bool FreeSpace::fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
   }
   const double acceleration = massChange * forces / state.mass + gravity + gravityAllowance;
   const double way = h * (speed + h * acceleration);
-  const double near = nearTime(h) * speed;
+  const double near = nearDistance(speed, h);
   const double tilt = std::acos(std::clamp(leastUp_, 0.0, 1.0));
   const double bandHeight = high_ - low_;
   const double height = std::max(std::abs(low_), std::abs(high_));

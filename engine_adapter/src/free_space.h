@@ -24,7 +24,7 @@ class FreeSpace {
             double minUprightness);
 
   /// Whether the vehicle certainly touches no wall in the coming step of `h` seconds, and is not
-  /// near one as WallQuery::nearZone() has it. A comparison of what its bodies are and do now;
+  /// near one as nearDistance() has it. A comparison of what its bodies are and do now;
   /// false if in doubt.
   [[nodiscard]] bool holds(double h);
 

@@ -46,7 +46,6 @@ void NearbyWalls::list(WallQuery& query, const std::vector<std::unique_ptr<Barri
   const double radius =
       query.radius() + std::max(margins_.front, margins_.rear) + margins_.side + margins_.height;
   faces_.clear();
-  lastNear_ = 0;
   for (const std::unique_ptr<Barrier>& barrier : barriers) {
     if (barrier == nullptr || !barrier->mayComeWithin(centre_, radius)) continue;
     if (barrier->mesh() == nullptr) {
@@ -107,77 +106,45 @@ bool NearbyWalls::mayMeet(const Near& near, const WallQuery& query, const Vehicl
   return std::abs(offset) <= half + 2.0 * touchTolerance;
 }
 
-const std::optional<WallSegment>& NearbyWalls::pieceOf(Near& near, const WallQuery& query,
-                                                       const VehicleState& state, double reach) {
-  if (near.isCut) return near.piece;
-  near.isCut = true;
+std::optional<WallSegment> NearbyWalls::pieceOf(const Near& near, const WallQuery& query,
+                                                const VehicleState& state, double reach) {
   const Barrier& barrier = *near.barrier;
-  if (const PrimitiveWall* primitive = barrier.primitive()) {
-    near.piece = query.cut(*primitive, state, reach);
-  } else {
-    near.piece = query.cut(near.face, state);
-    if (near.piece) near.piece->solid = barrier.mesh()->isSolid();
-  }
-  if (near.piece) {
-    near.piece->group = barrier.id().value;
-    near.piece->settings = near.settings;
-  }
-  return near.piece;
+  const PrimitiveWall* primitive = barrier.primitive();
+  std::optional<WallSegment> piece =
+      primitive != nullptr ? query.cut(*primitive, state, reach) : query.cut(near.face, state);
+  if (!piece) return piece;
+  if (primitive == nullptr) piece->solid = barrier.mesh()->isSolid();
+  piece->group = barrier.id().value;
+  piece->settings = near.settings;
+  return piece;
 }
 
-bool NearbyWalls::anyIn(const NearZone& zone, const WallQuery& query, const VehicleState& state,
-                        double reach) {
-  const auto isIn = [&](Near& near) {
-    if (!mayMeet(near, query, state, zone.around)) return false;
-    const std::optional<WallSegment>& piece = pieceOf(near, query, state, reach);
-    return piece && zone.meets(*piece);
-  };
-  if (lastNear_ < faces_.size() && isIn(faces_[lastNear_])) return true;
-  const auto found = std::find_if(faces_.begin(), faces_.end(), isIn);
-  lastNear_ = static_cast<std::size_t>(found - faces_.begin());
-  return found != faces_.end();
-}
-
-bool NearbyWalls::collect(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
+void NearbyWalls::collect(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
                           const VehicleState& state, const Question& question,
                           std::vector<WallSegment>& segments) {
-  const PlanRectangle outline = query.outline().enlarged(0.0);
-  const PlanRectangle& zone = question.zone.around;
-  const double beyond =
-      ((zone.middle - outline.middle).cwiseAbs() + zone.half - outline.half).maxCoeff();
-  const double reach = std::max(question.reach, beyond);
-  if (!covers(query, state, reach)) list(query, barriers, state, reach);
-  for (Near& each : faces_) each.isCut = false;
+  if (!covers(query, state, question.reach)) list(query, barriers, state, question.reach);
   segments.clear();
-  const bool isWanted = question.evenIfNoneIsTouched || mayTouchAgain_;
-  bool near = false;
-  if (!isWanted) {
-    near = anyIn(question.zone, query, state, reach);
-    const auto mayBeTouched = [&](const Near& each) {
-      return mayMeet(each, query, state, question.swept);
+  if (!question.evenIfNoneIsThere && !wasThere_) {
+    const auto mayBeThere = [&](const Near& each) {
+      return mayMeet(each, query, state, question.around);
     };
-    if (!near || std::none_of(faces_.begin(), faces_.end(), mayBeTouched)) return near;
+    if (std::none_of(faces_.begin(), faces_.end(), mayBeThere)) return;
   }
   const auto meets = [](PlanRectangle rectangle, const WallSegment& piece) {
     rectangle.half.array() += piece.radius;
     return !rectangle.misses(piece.start, piece.end);
   };
   const PlanRectangle within = query.outline().enlarged(question.reach);
-  const PlanRectangle all = hull(within, zone);
-  bool mayTouch = false;
+  wasThere_ = false;
   for (std::size_t i = 0; i < faces_.size(); ++i) {
-    if (!mayMeet(faces_[i], query, state, all)) continue;
-    const std::optional<WallSegment>& piece = pieceOf(faces_[i], query, state, reach);
-    if (!piece) continue;
-    near = near || question.zone.meets(*piece);
-    if (!meets(within, *piece)) continue;
-    mayTouch = mayTouch || meets(question.swept, *piece);
+    if (!mayMeet(faces_[i], query, state, within)) continue;
+    const std::optional<WallSegment> piece = pieceOf(faces_[i], query, state, question.reach);
+    if (!piece || !meets(within, *piece)) continue;
+    wasThere_ = wasThere_ || meets(question.around, *piece);
     segments.push_back(*piece);
     segments.back().id = static_cast<int>(i);
   }
-  mayTouchAgain_ = mayTouch;
-  if (!mayTouch && !question.evenIfNoneIsTouched) segments.clear();
-  return near;
+  if (!wasThere_ && !question.evenIfNoneIsThere) segments.clear();
 }
 
 }  // namespace bumper

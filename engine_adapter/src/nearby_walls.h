@@ -27,16 +27,15 @@ class NearbyWalls {
 
   /// What is asked of the walls around a vehicle.
   struct Question {
-    NearZone zone;        ///< where walls are near
-    PlanRectangle swept;  ///< what the outline passes over in the step if it hits nothing
-    double reach = 0.0;   ///< how far it may come, whatever it hits, m
-    bool evenIfNoneIsTouched = false;
+    PlanRectangle around;  ///< what the outline passes over in the step if it hits nothing, or more
+    double reach = 0.0;    ///< how far it may come, whatever it hits, m
+    bool evenIfNoneIsThere = false;
   };
 
-  /// Whether any wall is near. `segments` gets all pieces of walls within the reach of the vehicle
-  /// in that state, in the order of barriers and walls; none if no wall can be touched in the step,
-  /// unless they are wanted even then. A piece's id is its face's number here.
-  bool collect(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
+  /// `segments` gets all pieces of walls within the reach of the vehicle in that state, in the
+  /// order of barriers and walls; none if no wall is in the rectangle, unless they are wanted even
+  /// then. A piece's id is its face's number here.
+  void collect(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
                const VehicleState& state, const Question& question,
                std::vector<WallSegment>& segments);
 
@@ -57,19 +56,13 @@ class NearbyWalls {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // of a ball around the face
     double radius = 0.0;
     const ResponseSettings* settings = nullptr;
-
-    // Its piece in the step at hand, once it is asked for.
-    bool isCut = false;
-    std::optional<WallSegment> piece{};
   };
 
   [[nodiscard]] bool covers(const WallQuery& query, const VehicleState& state, double reach) const;
   [[nodiscard]] static bool mayMeet(const Near& near, const WallQuery& query,
                                     const VehicleState& state, const PlanRectangle& around);
-  static const std::optional<WallSegment>& pieceOf(Near& near, const WallQuery& query,
-                                                   const VehicleState& state, double reach);
-  [[nodiscard]] bool anyIn(const NearZone& zone, const WallQuery& query, const VehicleState& state,
-                           double reach);
+  static std::optional<WallSegment> pieceOf(const Near& near, const WallQuery& query,
+                                            const VehicleState& state, double reach);
   void list(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
             const VehicleState& state, double reach);
   void listFaces(const Barrier& barrier, std::span<const int> walls);
@@ -79,9 +72,8 @@ class NearbyWalls {
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  // its axes,
   WallQuery::Margins margins_;                          // and how far it reaches beyond the outline
   std::vector<Near> faces_;
-  std::size_t lastNear_ = 0;  // a face that was near, to be asked first
-  // So it was in the last step: looking at all at once is then the shortest way.
-  bool mayTouchAgain_ = false;
+  // Something was there in the last step: looking at all at once is then the shortest way.
+  bool wasThere_ = false;
 };
 
 }  // namespace bumper

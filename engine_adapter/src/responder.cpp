@@ -129,6 +129,9 @@ void update(Responder::Implementation& responder, const Barrier& old, const Sour
           contact.wall = std::min(contact.wall, fresh->wallCount() - 1);
       }
     }
+    for (GuardLoad& load : vehicle->guards.loads()) {
+      if (load.barrier == old.id()) load.wall = std::min(load.wall, fresh->wallCount() - 1);
+    }
   }
   responder.barrierOfGeom.erase(old.geom());
   responder.barrierOfGeom.emplace(fresh->geom(), fresh.get());
@@ -274,6 +277,7 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
     self.vehicleOfBody.emplace(body, vehicle.get());
   }
   self.vehicles.push_back(std::move(vehicle));
+  if (!self.clock) self.clock.emplace(self.world);
   // So that step() need not allocate when the first vehicle hits the first wall.
   self.events.reserve(CollisionStep::maxImpacts + 8 * self.vehicles.size());
   self.segments.reserve(128);
@@ -290,6 +294,9 @@ void Responder::removeBarrier(BarrierId barrier) {
       std::erase_if(memory->passages, isOfIt);
       std::erase_if(memory->contacts, isOfIt);
     }
+    for (GuardLoad& load : vehicle->guards.loads()) {
+      if (load.barrier == barrier) load.barrier = {};
+    }
   }
   implementation_->forgetSurroundings();
   implementation_->barrierOfGeom.erase(removed.geom());
@@ -299,7 +306,10 @@ void Responder::removeBarrier(BarrierId barrier) {
 void Responder::removeVehicle(VehicleId vehicle) {
   const Vehicle& removed = registered(implementation_->vehicles, vehicle.value, "vehicle");
   for (dBodyID body : removed.bodies.all()) implementation_->vehicleOfBody.erase(body);
-  implementation_->vehicles[static_cast<std::size_t>(vehicle.value)].reset();
+  std::unique_ptr<Vehicle>& place =
+      implementation_->vehicles[static_cast<std::size_t>(vehicle.value)];
+  place->guards.release();
+  place.reset();
 }
 
 bool Responder::claims(dGeomID a, dGeomID b) const {
@@ -351,7 +361,10 @@ SavedState Responder::save() const {
   SavedState saved;
   saved.time = implementation_->time;
   for (const std::unique_ptr<Vehicle>& vehicle : implementation_->vehicles) {
-    if (vehicle != nullptr) saved.vehicles.push_back(vehicle->memory);
+    if (vehicle == nullptr) continue;
+    saved.vehicles.push_back(vehicle->memory);
+    const std::span<const GuardLoad> loads = vehicle->guards.loads();
+    saved.vehicles.back().guards.assign(loads.begin(), loads.end());
   }
   return saved;
 }
@@ -384,8 +397,13 @@ void Responder::restore(const SavedState& state) {
   for (const VehicleMemory& memory : state.vehicles) {
     Vehicle& vehicle = *self.vehicles[static_cast<std::size_t>(memory.vehicle.value)];
     vehicle.memory = memory;
-    vehicle.memoryBefore = memory;
+    vehicle.memory.guards.clear();
+    vehicle.memoryBefore = vehicle.memory;
+    vehicle.guards.release();
+    vehicle.guards.setLoads(memory.guards);
   }
+  if (self.clock) self.clock->stop();
+  dJointGroupEmpty(self.guardJoints.get());
   self.forgetSurroundings();
   self.time = state.time;
 }

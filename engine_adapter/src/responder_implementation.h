@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -14,9 +15,11 @@
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/response/collision_step.h"
 #include "free_space.h"
+#include "guard_contacts.h"
 #include "nearby_walls.h"
 #include "vehicle_bodies.h"
 #include "wall_query.h"
+#include "world_clock.h"
 
 namespace bumper {
 
@@ -43,6 +46,7 @@ struct Vehicle {
   FreeSpace freeSpace;
   WallQuery query;
   NearbyWalls nearby;
+  GuardContacts guards;
   VehicleMemory memory;
   VehicleMemory memoryBefore;  // as it was before the last step()
   unsigned issues = step_issue::none;
@@ -56,6 +60,10 @@ struct OwnedPair {
   const Vehicle* vehicle = nullptr;
   const Barrier* barrier = nullptr;
   explicit operator bool() const { return vehicle != nullptr; }
+};
+
+struct JointGroupDeleter {
+  void operator()(dJointGroupID group) const { dJointGroupDestroy(group); }
 };
 
 struct Responder::Implementation {
@@ -76,6 +84,9 @@ struct Responder::Implementation {
 
   double longestPenetrationTime = 0.0;  // of all barriers there ever were, s
 
+  std::optional<WorldClock> clock;  // from the first vehicle on
+  std::unique_ptr<dxJointGroup, JointGroupDeleter> guardJoints{dJointGroupCreate(0)};
+
   // Scratch memory, kept from step to step.
   CollisionStep collision;
   std::vector<WallSegment> segments;
@@ -91,13 +102,18 @@ struct Responder::Implementation {
   void stepAll(std::span<Vehicle* const> some, double h);
   void reconsiderLastStep(std::span<Vehicle* const> some);
   void stepVehicle(Vehicle& vehicle, double h);
-  bool collectWalls(Vehicle& vehicle, const VehicleState& state, const PlanarMotion& motion,
-                    double h);
+  void collectWalls(Vehicle& vehicle, const VehicleState& state, const PlanarMotion& motion,
+                    bool guarded, double h);
   void leaveOutPassages(Vehicle& vehicle);
   void answerCuts(Vehicle& vehicle, const VehicleState& state, const PlanarMotion& motion,
                   double h);
+  void addGuards(Vehicle& vehicle, const VehicleState& state, const PlanarMotion& motion, double h);
   void answerContacts(Vehicle& vehicle, const VehicleState& state, PlanarMotion motion, double h);
   void give(Vehicle& vehicle, const VehicleState& state, double h);
+  [[nodiscard]] static ImpactEvent eventAt(const Vehicle& vehicle, const Barrier& barrier, int wall,
+                                           const Eigen::Vector3d& contact,
+                                           const Eigen::Vector3d& normal);
+  void reportLoads(Vehicle& vehicle, const VehicleState& state);
   void report(Vehicle& vehicle, const VehicleState& state, const Barrier& barrier, int wall,
               const StepImpact& each);
   void endContacts(Vehicle& vehicle);

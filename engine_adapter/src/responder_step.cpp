@@ -33,27 +33,13 @@ VehicleParameters withMassOf(VehicleParameters parameters, const VehicleState& s
   return parameters;
 }
 
-// What acts on a vehicle besides the forces that are known before a step, joints above all, is the
-// difference between the last step's outcome and what it should have been. It rarely changes much
-// from step to step: the coming step's is foreseen to be its running mean, which keeps the solver's
-// noise out of the answer.
-void foresee(Expectation& expected, VehicleState& state) {
-  // More than tyres can do was a blow or a teleport, and is over.
-  constexpr double mostAcceleration = 15.0;     // m/s²
-  constexpr double mostYawAcceleration = 15.0;  // rad/s²
-  constexpr double weight = 0.25;               // of the last step in the mean
-  if (expected.step <= 0.0) return;
-  const Eigen::Vector3d acceleration = (state.velocity - expected.velocity) / expected.step;
-  const double yawAcceleration = (state.yawRate - expected.yawRate) / expected.step;
-  if (acceleration.norm() <= mostAcceleration && std::abs(yawAcceleration) <= mostYawAcceleration) {
-    const double share = expected.known ? weight : 1.0;
-    expected.acceleration += share * (acceleration - expected.acceleration);
-    expected.yawAcceleration += share * (yawAcceleration - expected.yawAcceleration);
-    expected.known = true;
-  }
-  state.acceleration += expected.acceleration;
-  state.yawAcceleration += expected.yawAcceleration;
-}
+// What acts on a vehicle in no impact besides the forces that are known before a step, at most:
+// tyres, motors.
+constexpr double ordinaryAcceleration = 15.0;     // m/s²
+constexpr double ordinaryYawAcceleration = 15.0;  // rad/s²
+
+// A point that is no further from its wall than this, m, slides along it in the step.
+constexpr double slidingGap = 1e-3;
 
 // What the coming step should do by the known forces and the impulse that is given.
 void expect(const VehicleState& known, const PlanarImpulse& impulse, double h,
@@ -64,11 +50,24 @@ void expect(const VehicleState& known, const PlanarImpulse& impulse, double h,
   expected.yawRate = known.yawRate + h * known.yawAcceleration + impulse.angular / known.yawInertia;
 }
 
+// Takes out of what is pending what joints have done of it already.
+void reconcile(const Expectation& expected, const VehicleState& state, ForcePulse& pulse) {
+  if (expected.step <= 0.0) return;
+  const Vector2 surplus = (state.axes.transpose() * (state.velocity - expected.velocity)).head<2>();
+  pulse.reconcile({.linear = state.mass * surplus,
+                   .angular = state.yawInertia * (state.yawRate - expected.yawRate)},
+                  {.linear = expected.step * ordinaryAcceleration * state.mass,
+                   .angular = expected.step * ordinaryYawAcceleration * state.yawInertia},
+                  state.mass, state.yawInertia);
+}
+
 double gravityOf(dWorldID world) {
   dVector3 gravity;
   dWorldGetGravity(world, gravity);
   return toVector(gravity).norm();
 }
+
+bool hasForce(dBodyID body) { return !toVector(dBodyGetForce(body)).isZero(0.0); }
 
 // Where the vehicle's forward axis points now in the yaw plane that it had before, unit.
 Vector2 aheadSince(const Eigen::Matrix3d& before, const Eigen::Matrix3d& now) {
@@ -80,31 +79,44 @@ Vector2 aheadSince(const Eigen::Matrix3d& before, const Eigen::Matrix3d& now) {
 // Puts right what the world's last step did not do as it was told.
 void Responder::Implementation::reconsiderLastStep(std::span<Vehicle* const> some) {
   bool repeated = false;
+  const bool known = clock && clock->isRunning();
   for (Vehicle* each : some) {
     if (!each->memory.delivery.any) continue;
     Vehicle& vehicle = *each;
     VehicleMemory& memory = vehicle.memory;
-    double worldStep = 0.0;
-    switch (lookBack(memory.delivery, vehicle.bodies.chassis(), worldStep)) {
+    const WorldSteps steps =
+        known ? clock->read()
+              : WorldSteps{.total = memory.delivery.step, .first = memory.delivery.step};
+    switch (lookBack(memory.delivery, vehicle.bodies, steps)) {
       case LastStep::as_told:
         break;
       case LastStep::not_taken:
-        takeBack(vehicle.bodies, vehicle.bodies.read(), options.delivery, memory.delivery);
+        takeBack(vehicle.bodies, options.delivery, memory.delivery);
         memory = vehicle.memoryBefore;
         vehicle.issues |= step_issue::repeated_step;
         repeated = true;
         break;
       case LastStep::other_size: {
-        const double missing = 1.0 - worldStep / memory.delivery.step;
+        const double missing = 1.0 - steps.first / memory.delivery.step;
         if (options.delivery == Delivery::force_pulse) {
-          memory.pulse.owe({.linear = missing * memory.delivery.impulse.linear,
-                            .angular = missing * memory.delivery.impulse.angular});
+          const PlanarImpulse owed{.linear = missing * memory.delivery.impulse.linear,
+                                   .angular = missing * memory.delivery.impulse.angular};
+          const VehicleState state = vehicle.bodies.read();
+          memory.pulse.owe(owed);
+          memory.expectation.velocity -=
+              memory.delivery.axes.leftCols<2>() * owed.linear / state.mass;
+          memory.expectation.yawRate -= owed.angular / state.yawInertia;
         }
-        memory.expectation = {};
         vehicle.issues |= step_issue::other_step_size;
         break;
       }
       case LastStep::moved_since:
+        // A force waits for the world's step, unless it was cleared with the rest; a change of
+        // velocity has been overwritten.
+        if (!(steps.total > 0.0) && options.delivery == Delivery::force_pulse &&
+            hasForce(vehicle.bodies.chassis())) {
+          takeBack(vehicle.bodies, options.delivery, memory.delivery);
+        }
         memory.pulse.drop();
         memory.expectation = {};
         vehicle.issues |= step_issue::moved;
@@ -112,10 +124,24 @@ void Responder::Implementation::reconsiderLastStep(std::span<Vehicle* const> som
     }
     memory.delivery.any = false;
   }
+  if (clock) clock->stop();
   if (repeated) time -= lastStep;
 }
 
 // `wall` is any of those that make one face with the one that was hit.
+ImpactEvent Responder::Implementation::eventAt(const Vehicle& vehicle, const Barrier& barrier,
+                                               int wall, const Eigen::Vector3d& contact,
+                                               const Eigen::Vector3d& normal) {
+  ImpactEvent event;
+  event.vehicle = vehicle.name;
+  event.barrier = barrier.name();
+  event.triangle = barrier.triangleOf(barrier.wallAt(wall, contact));
+  event.material = barrier.materialOf(wall);
+  event.contact = contact;
+  event.normal = normal;
+  return event;
+}
+
 void Responder::Implementation::report(Vehicle& vehicle, const VehicleState& state,
                                        const Barrier& barrier, int wall, const StepImpact& each) {
   const Impact& impact = each.impact;
@@ -126,10 +152,9 @@ void Responder::Implementation::report(Vehicle& vehicle, const VehicleState& sta
   const double energyLost = -response.contact.energyChange;
 
   const ResponseSettings& settings = barrier.settings(barrier.settingsNumberOf(wall));
-  const double soft = isInContact(vehicle.memory.contacts, barrier.id())
-                          ? impactInContact * settings.restSpeed
-                          : settings.restSpeed;
-  const bool hard = response.approachSpeed > soft && !each.slides;
+  const bool hard =
+      response.approachSpeed > impactSpeed(vehicle.memory.contacts, barrier.id(), settings) &&
+      !each.slides;
   const bool begins = addToContact(vehicle.memory.contacts,
                                    {.barrier = barrier.id(),
                                     .wall = wall,
@@ -141,15 +166,9 @@ void Responder::Implementation::report(Vehicle& vehicle, const VehicleState& sta
                                    when, !hard && response.approachSpeed > noticedSpeed);
   if (!hard && !begins) return;
 
-  ImpactEvent event;
+  ImpactEvent event = eventAt(vehicle, barrier, wall, contact, normal);
   event.time = when;
   event.phase = hard ? EventPhase::impact : EventPhase::contact_begin;
-  event.vehicle = vehicle.name;
-  event.barrier = barrier.name();
-  event.triangle = barrier.triangleOf(barrier.wallAt(wall, contact));
-  event.material = barrier.materialOf(wall);
-  event.contact = contact;
-  event.normal = normal;
   event.arm = rotated(impact.arm, -response.before.yaw);
   event.law = response.law;
   event.angles = anglesOfAttack(impact, response.before);
@@ -175,6 +194,55 @@ void Responder::Implementation::report(Vehicle& vehicle, const VehicleState& sta
   events.push_back(event);
 }
 
+// What the guard contacts did in the world's last step. It counts to the contact with the wall; the
+// rise of a load is told as an impact.
+void Responder::Implementation::reportLoads(Vehicle& vehicle, const VehicleState& state) {
+  std::vector<SustainedContact>& contacts = vehicle.memory.contacts;
+  fadeLoads(contacts, lastStep);
+  for (const GuardLoad& load : vehicle.guards.loads()) {
+    const Eigen::Vector3d impulse = lastStep * load.force;
+    const double normalImpulse = impulse.dot(load.normal);
+    if (load.barrier == BarrierId{} || normalImpulse <= 0.0) continue;
+    const Barrier& barrier = *barriers[static_cast<std::size_t>(load.barrier.value)];
+    const ResponseSettings& settings = barrier.settings(barrier.settingsNumberOf(load.wall));
+    const Eigen::Vector3d along = state.up().cross(load.normal);
+    const Eigen::Vector3d velocity = 0.5 * (load.velocity + state.velocityAt(load.arm));
+    const ContactShare share{.barrier = barrier.id(),
+                             .wall = load.wall,
+                             .impulseNormal = normalImpulse,
+                             .impulseTangent = impulse.dot(along),
+                             .energyLost = -impulse.dot(velocity),
+                             .contact = load.contact,
+                             .normal = load.normal};
+    const double change = normalImpulse / state.mass;
+    const bool hard = change > impactSpeed(contacts, barrier.id(), settings);
+    const bool begins = addToContact(contacts, share, time, change > noticedSpeed);
+    const bool rises = raiseLoad(contacts, barrier.id(), load.force.dot(load.normal));
+    const bool isImpact = hard && rises;
+    if (!isImpact && !begins) continue;
+    ImpactEvent event = eventAt(vehicle, barrier, load.wall, load.contact, load.normal);
+    event.time = time;
+    event.phase = isImpact ? EventPhase::impact : EventPhase::contact_begin;
+    event.arm = (state.axes.transpose() * load.arm).head<2>();
+    event.approachSpeed = -load.velocity.dot(load.normal);
+    event.impulseNormal = share.impulseNormal;
+    event.impulseTangent = share.impulseTangent;
+    event.impulseRatio = share.impulseTangent / share.impulseNormal;
+    event.deltaV = impulse.norm() / state.mass;
+    event.yawRateAfter = state.yawRate;
+    event.yawRateBefore =
+        state.yawRate - load.arm.cross(impulse).dot(state.up()) / state.yawInertia;
+    event.velocityAfter = state.velocity;
+    event.speedAfter = (state.axes.transpose() * state.velocity).head<2>().norm();
+    event.speedBefore =
+        (state.axes.transpose() * (state.velocity - impulse / state.mass)).head<2>().norm();
+    event.energyLost = share.energyLost;
+    event.regime = Regime::sticking;
+    events.push_back(event);
+  }
+  vehicle.guards.forget();
+}
+
 void Responder::Implementation::endContacts(Vehicle& vehicle) {
   Outline around = vehicle.query.outline();
   around.front += contactDistance;
@@ -187,15 +255,9 @@ void Responder::Implementation::endContacts(Vehicle& vehicle) {
     });
     if (near) return false;
     const Barrier& barrier = *barriers[static_cast<std::size_t>(contact.barrier.value)];
-    ImpactEvent event;
+    ImpactEvent event = eventAt(vehicle, barrier, contact.wall, contact.contact, contact.normal);
     event.time = contact.last;
     event.phase = EventPhase::contact_end;
-    event.vehicle = vehicle.name;
-    event.barrier = barrier.name();
-    event.triangle = barrier.triangleOf(barrier.wallAt(contact.wall, contact.contact));
-    event.material = barrier.materialOf(contact.wall);
-    event.contact = contact.contact;
-    event.normal = contact.normal;
     event.impulseNormal = contact.impulseNormal;
     event.impulseTangent = contact.impulseTangent;
     event.energyLost = contact.energyLost;
@@ -233,20 +295,44 @@ void Responder::Implementation::forgetSurroundings() {
   }
 }
 
-// Whether walls are near; those that matter are in `segments`.
-bool Responder::Implementation::collectWalls(Vehicle& vehicle, const VehicleState& state,
-                                             const PlanarMotion& motion, double h) {
+// Those that matter are in `segments`.
+void Responder::Implementation::collectWalls(Vehicle& vehicle, const VehicleState& state,
+                                             const PlanarMotion& motion, bool guarded, double h) {
   if (!options.skipping) vehicle.nearby.forget();
   const VehicleMemory& memory = vehicle.memory;
-  return vehicle.nearby.collect(
-      vehicle.query, barriers, state,
-      {.zone = vehicle.query.nearZone(motion, state.velocity.norm(), h),
-       .swept = vehicle.query.swept(motion, h),
-       .reach = CollisionStep::reach(withMassOf(vehicle.parameters, state), motion,
-                                     longestPenetrationTime, h),
-       .evenIfNoneIsTouched =
-           !options.skipping || mayHaveEnded(memory.contacts, time) || !memory.passages.empty()},
-      segments);
+  const VehicleParameters parameters = withMassOf(vehicle.parameters, state);
+  NearbyWalls::Question question{
+      .around = vehicle.query.swept(motion, h),
+      .reach = CollisionStep::reach(parameters, motion, longestPenetrationTime, h),
+      .evenIfNoneIsThere =
+          !options.skipping || mayHaveEnded(memory.contacts, time) || !memory.passages.empty()};
+  if (guarded) {
+    const double near = nearDistance(motion.velocity.norm(), h);
+    question.around = hull(question.around, vehicle.query.outline().enlarged(near));
+    question.reach = std::max(question.reach, near);
+  }
+  vehicle.nearby.collect(vehicle.query, barriers, state, question, segments);
+}
+
+// For the walls in `segments`, after their impacts have been found.
+void Responder::Implementation::addGuards(Vehicle& vehicle, const VehicleState& state,
+                                          const PlanarMotion& motion, double h) {
+  const double near = nearDistance(motion.velocity.norm(), h);
+  for (const SpeculativeContact& contact : collision.speculativeContacts(motion, near, h)) {
+    const BarrierWall hit = vehicle.nearby.at(contact.wall);
+    const ResponseSettings& settings = *contact.settings;
+    const bool slides =
+        contact.gap <= slidingGap && settings.frictionKind == Friction::Kind::coulomb;
+    const Impact impact{.normal = contact.normal, .arm = contact.arm};
+    vehicle.guards.add(
+        {.contact = contact,
+         .barrier = hit.barrier->id(),
+         .wall = hit.wall,
+         .friction =
+             slides ? settings.friction(attackDirection(impact, motion, settings.angle)) : 0.0,
+         .normalSpeed = leastNormalSpeed(contact, motion.yawRate, h)},
+        guardJoints.get(), vehicle.bodies.chassis(), state, time);
+  }
 }
 
 void Responder::Implementation::answerCuts(Vehicle& vehicle, const VehicleState& state,
@@ -308,60 +394,58 @@ void Responder::Implementation::give(Vehicle& vehicle, const VehicleState& state
 void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
   VehicleMemory& memory = vehicle.memory;
   vehicle.freeSpace.leave();
-  if (vehicle.bodies.areAsleep()) {
-    memory.expectation = {};
+  const Expectation expected = std::exchange(memory.expectation, {});
+  if (vehicle.bodies.areAsleep() && !isHeldByAwakeBody(vehicle.bodies)) {
+    vehicle.guards.forget();
     return;
   }
-  const VehicleState known = vehicle.bodies.read();
-  if (!known.isFinite()) {
+  const VehicleState state = vehicle.bodies.read();
+  if (!state.isFinite()) {
     vehicle.issues |= step_issue::not_finite;
     memory.pulse.drop();
-    memory.expectation = {};
+    vehicle.guards.forget();
     return;
   }
-  const bool delivering = !memory.pulse.isEmpty();
-  if (delivering) {
+  if (!memory.pulse.isEmpty()) {
     vehicle.memoryBefore = memory;
-    memory.pulse.turnFrame(aheadSince(memory.delivery.axes, known.axes));
+    memory.pulse.turnFrame(aheadSince(memory.delivery.axes, state.axes));
+    reconcile(expected, state, memory.pulse);
   }
+  const bool delivering = !memory.pulse.isEmpty();
+  reportLoads(vehicle, state);
   const bool upright = vehicle.isUpright();
   const bool exact = options.contactSource == ContactSource::exact_cut;
-  VehicleState state = known;
-  PlanarMotion motion;
-  bool near = false;
   segments.clear();
-  const bool remembersWalls = delivering || memory.expectation.step > 0.0 ||
-                              mayHaveEnded(memory.contacts, time) || !memory.passages.empty();
+  const bool remembersWalls =
+      delivering || mayHaveEnded(memory.contacts, time) || !memory.passages.empty();
   if (exact && upright && options.skipping && !remembersWalls &&
-      vehicle.freeSpace.find(barriers, known, gravityOf(world), h,
+      vehicle.freeSpace.find(barriers, state, gravityOf(world), h,
                              stepsUntilEnd(memory.contacts, time, h))) {
     return;
   }
+  PlanarMotion motion;
+  bool guarded = false;
   if (upright) {
-    foresee(memory.expectation, state);
     motion = motionOf(state, memory.pulse, options.response.method, h);
-    near = !exact || collectWalls(vehicle, state, motion, h);
+    if (exact) {
+      guarded = options.guardContacts && hasOuterJoint(vehicle.bodies);
+      collectWalls(vehicle, state, motion, guarded, h);
+    }
   } else {
     vehicle.issues |= step_issue::tilted;
   }
   if (mayHaveEnded(memory.contacts, time)) endContacts(vehicle);
-  if (!near && !delivering) {
-    memory.expectation = {};
-    memory.passages.clear();
-    return;
-  }
   if (!delivering) vehicle.memoryBefore = memory;
-  if (exact) {
-    leaveOutPassages(vehicle);
-    if (!segments.empty()) answerCuts(vehicle, state, motion, h);
-  } else if (near) {
-    answerContacts(vehicle, state, motion, h);
+  leaveOutPassages(vehicle);
+  if (!exact && upright) answerContacts(vehicle, state, motion, h);
+  if (!segments.empty()) {
+    answerCuts(vehicle, state, motion, h);
+    if (guarded) addGuards(vehicle, state, motion, h);
   }
-  give(vehicle, known, h);
-  if (near && memory.delivery.any) {
-    expect(known, memory.delivery.impulse, h, memory.expectation);
-  } else {
-    memory.expectation = {};
+  if (memory.pulse.isEmpty()) return;
+  give(vehicle, state, h);
+  if (guarded && memory.delivery.any) {
+    expect(state, memory.delivery.impulse, h, memory.expectation);
   }
 }
 
@@ -371,12 +455,17 @@ void Responder::Implementation::stepAll(std::span<Vehicle* const> some, double h
     stepVehicle(*vehicle, h);
     issues |= vehicle->issues;
   }
+  const bool isTold = std::any_of(some.begin(), some.end(), [](const Vehicle* vehicle) {
+    return vehicle->memory.delivery.any;
+  });
+  if (clock && isTold) clock->start();
 }
 
 std::span<const ImpactEvent> Responder::step(double h) {
   Implementation& self = *implementation_;
   self.events.clear();
   self.issues = step_issue::none;
+  dJointGroupEmpty(self.guardJoints.get());
   // Those that are not certainly away from all walls. One that is has nothing to say, and had
   // nothing to say before.
   Vehicle** last = self.active.data();

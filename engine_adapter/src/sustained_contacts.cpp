@@ -6,9 +6,20 @@
 
 namespace bumper {
 
-bool isInContact(const std::vector<SustainedContact>& contacts, BarrierId barrier) {
-  return std::any_of(contacts.begin(), contacts.end(),
-                     [&](const SustainedContact& each) { return each.barrier == barrier; });
+namespace {
+
+template <typename Contacts>
+auto contactWith(Contacts& contacts, BarrierId barrier) {
+  return std::find_if(contacts.begin(), contacts.end(),
+                      [&](const SustainedContact& each) { return each.barrier == barrier; });
+}
+
+}  // namespace
+
+double impactSpeed(const std::vector<SustainedContact>& contacts, BarrierId barrier,
+                   const ResponseSettings& settings) {
+  const bool isInContact = contactWith(contacts, barrier) != contacts.end();
+  return isInContact ? impactInContact * settings.restSpeed : settings.restSpeed;
 }
 
 bool mayHaveEnded(const std::vector<SustainedContact>& contacts, double time) {
@@ -28,9 +39,7 @@ int stepsUntilEnd(const std::vector<SustainedContact>& contacts, double time, do
 
 bool addToContact(std::vector<SustainedContact>& contacts, const ContactShare& share, double time,
                   bool mayBegin) {
-  auto contact = std::find_if(contacts.begin(), contacts.end(), [&](const SustainedContact& each) {
-    return each.barrier == share.barrier;
-  });
+  auto contact = contactWith(contacts, share.barrier);
   const bool begins = contact == contacts.end();
   if (begins) {
     if (!mayBegin) return false;
@@ -44,6 +53,18 @@ bool addToContact(std::vector<SustainedContact>& contacts, const ContactShare& s
   contact->contact = share.contact;
   contact->normal = share.normal;
   return begins;
+}
+
+void fadeLoads(std::vector<SustainedContact>& contacts, double step) {
+  for (SustainedContact& each : contacts) each.load *= std::max(1.0 - step / contactPause, 0.0);
+}
+
+bool raiseLoad(std::vector<SustainedContact>& contacts, BarrierId barrier, double load) {
+  const auto contact = contactWith(contacts, barrier);
+  if (contact == contacts.end()) return false;
+  const bool rises = load >= 2.0 * contact->load;
+  contact->load = std::max(contact->load, load);
+  return rises;
 }
 
 }  // namespace bumper

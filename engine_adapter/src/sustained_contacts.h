@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "bumper/engine_adapter/saved_state.h"
+#include "bumper/response/response_settings.h"
 
 namespace bumper {
 
@@ -25,8 +26,9 @@ struct ContactShare {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
 };
 
-/// Whether a vehicle is in contact with a barrier.
-bool isInContact(const std::vector<SustainedContact>& contacts, BarrierId barrier);
+/// Above which approach speed, m/s, an impulse is an impact of its own.
+double impactSpeed(const std::vector<SustainedContact>& contacts, BarrierId barrier,
+                   const ResponseSettings& settings);
 
 /// Whether any of them has had no impulse for so long that it may have ended.
 bool mayHaveEnded(const std::vector<SustainedContact>& contacts, double time);
@@ -38,5 +40,12 @@ int stepsUntilEnd(const std::vector<SustainedContact>& contacts, double time, do
 /// `mayBegin` false: it counts only if there is such a contact.
 bool addToContact(std::vector<SustainedContact>& contacts, const ContactShare& share, double time,
                   bool mayBegin);
+
+/// The loads of contacts fade within contactPause.
+void fadeLoads(std::vector<SustainedContact>& contacts, double step);
+
+/// A load, N, on a barrier that the vehicle is in contact with. Returns whether it is at least
+/// twice what there was of late: a blow, where a load that stays is none.
+bool raiseLoad(std::vector<SustainedContact>& contacts, BarrierId barrier, double load);
 
 }  // namespace bumper

@@ -3,6 +3,7 @@
 #include <ode/ode.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <span>
 #include <utility>
 #include <vector>
@@ -33,6 +34,10 @@ struct VehicleState : VehiclePose {
   [[nodiscard]] bool isFinite() const;
   [[nodiscard]] Eigen::Vector3d toWorld(const Vector2& inYawPlane) const {
     return axes.leftCols<2>() * inYawPlane;
+  }
+  /// Of the point at `arm` from the mass centre, turning about the z axis alone.
+  [[nodiscard]] Eigen::Vector3d velocityAt(const Eigen::Vector3d& arm) const {
+    return velocity + yawRate * up().cross(arm);
   }
 };
 

@@ -72,16 +72,6 @@ std::optional<WallSegment> cutFace(const WallFace& face, const VehicleState& sta
   return segment;
 }
 
-bool NearZone::meets(const WallSegment& wall) const {
-  PlanRectangle rectangle = around;
-  rectangle.half.array() += wall.radius;
-  if (rectangle.misses(wall.start, wall.end)) return false;
-  const Vector2 along = wall.end - wall.start;
-  const double length2 = along.squaredNorm();
-  const double share = length2 > 0.0 ? std::clamp(-wall.start.dot(along) / length2, 0.0, 1.0) : 0.0;
-  return (wall.start + share * along).norm() <= radius + wall.radius;
-}
-
 WallQuery::WallQuery(const VehicleParameters& parameters, const Band& band)
     : outline_(parameters),
       low_(band.bottom - parameters.massCentreHeight),
@@ -128,13 +118,6 @@ PlanRectangle WallQuery::swept(const PlanarMotion& motion, double h) const {
   all.middle += 0.5 * way;
   all.half += 0.5 * way.cwiseAbs();
   return all;
-}
-
-NearZone WallQuery::nearZone(const PlanarMotion& motion, double speed, double h) const {
-  const PlanRectangle ahead = outline_.enlarged(nearTime(h) * speed);
-  // However fast it turns, the outline stays in its circle.
-  const double circle = outline_.radius() + h * motion.velocity.norm() + touchTolerance;
-  return {.around = hull(ahead, swept(motion, h)), .radius = std::max(ahead.farthest(), circle)};
 }
 
 std::optional<Impact> WallQuery::meanOfContacts(const BarrierMesh& mesh,

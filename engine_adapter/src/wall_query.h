@@ -14,18 +14,13 @@
 
 namespace bumper {
 
-/// A wall is near if the outline may come to it within this time, s, at the mass centre's speed:
-/// two steps, so that one is seen before any impact, and more of them where steps are short.
-inline double nearTime(double step) { return std::max(2.0 * step, 0.008); }
-
-/// Where walls are near: the part of a rectangle of the yaw plane that is within a distance of the
-/// mass centre.
-struct NearZone {
-  PlanRectangle around;
-  double radius = 0.0;  ///< m
-
-  [[nodiscard]] bool meets(const WallSegment& wall) const;
-};
+/// A wall is near if the outline may come to it within a step of `h` seconds: by twice the speed
+/// that it has, or by that which a blow of others may give it, m/s. A vehicle that joints act on
+/// has guard contacts with what is near.
+inline double nearDistance(double speed, double h) {
+  constexpr double afterBlow = 50.0;
+  return h * std::max(2.0 * speed, afterBlow);
+}
 
 /// The part of a face within [low, high] of a vehicle's z axis, laid into its yaw plane; nothing if
 /// the face lies outside. Of one that leans the line is the foremost, as seen from the mass centre.
@@ -74,9 +69,6 @@ class WallQuery {
   /// What the outline passes over in a step of `h` seconds if nothing stops it. `motion` is in the
   /// vehicle's axes at the step's start.
   [[nodiscard]] PlanRectangle swept(const PlanarMotion& motion, double h) const;
-  /// Where walls are near in a step of `h` seconds: what the outline may come to within nearTime()
-  /// at the mass centre's speed, `speed`, and all that it can touch in this step.
-  [[nodiscard]] NearZone nearZone(const PlanarMotion& motion, double speed, double h) const;
   /// Of a sphere around the mass centre that holds the outline over the band, m.
   [[nodiscard]] double radius() const { return radius_; }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <tuple>
 
+#include "penetration_recovery.h"
 #include "simultaneous_contacts.h"
 
 namespace bumper {
@@ -31,10 +32,6 @@ constexpr double standsInDepth = 0.05;
 constexpr int plasticAfter = 8;
 constexpr int togetherAfter = 16;
 constexpr std::size_t plasticInStepAfter = 40;
-
-// Part of a depth that is eased out in a step, and what is left in peace, m.
-constexpr double easeOutShare = 0.2;
-constexpr double easeOutDepth = 1e-4;
 
 // What is found deeper than this within a step, m, was not touched anew: it slides.
 constexpr double slidingDepth = 10.0 * touchTolerance;
@@ -408,9 +405,8 @@ Vector2 CollisionStep::easeOut(double h) const {
   Vector2 velocity = Vector2::Zero();
   for (const Wall& wall : walls_) {
     if (!wall.touched || wall.hidden || wall.segment.settings->method == Method::paper) continue;
-    const double depth = wall.overlap.depth - easeOutDepth;
-    if (depth <= 0.0) continue;
-    const double wanted = std::min(easeOutShare * depth / h, maxEaseOut);
+    const double wanted = recoverySpeed(wall.overlap.depth, h, maxEaseOut);
+    if (wanted <= 0.0) continue;
     const double missing = wanted - velocity.dot(wall.overlap.normal);
     if (missing > 0.0) velocity += missing * wall.overlap.normal;
   }
@@ -468,6 +464,24 @@ CollisionStep::NextTouch CollisionStep::nextTouch(double from, double until) {
     if (time <= next.time) next = {.time = time, .wall = &wall};
   }
   return next;
+}
+
+std::span<const SpeculativeContact> CollisionStep::speculativeContacts(const PlanarMotion& motion,
+                                                                       double distance,
+                                                                       double h) {
+  speculative_.clear();
+  motion_ = motion;
+  lookAround(0.0);
+  for (const Wall& wall : walls_) {
+    const ResponseSettings& settings = *wall.segment.settings;
+    const bool mayBeEntered =
+        settings.method == Method::paper || settings.contactTime > 0.0 ||
+        (settings.law == Law::energy && settings.energyRoot == EnergyRoot::break_through);
+    if (mayBeEntered || wall.hidden) continue;
+    addSpeculativeContacts(outline_, motion_, wall.segment, wall.touched ? &wall.overlap : nullptr,
+                           distance, h, speculative_);
+  }
+  return speculative_.all();
 }
 
 StepOutcome CollisionStep::resolve(const VehicleParameters& vehicle, const PlanarMotion& motion,

@@ -1,6 +1,7 @@
 #include "bumper/response/force_pulse.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace bumper {
 
@@ -36,6 +37,7 @@ void ForcePulse::addLong(const PlanarImpulse& impulse, double start, double dura
 void ForcePulse::shift(const PlanarImpulse& impulse) {
   thisStep_ += impulse;
   accumulate(nextStep_, impulse, -1.0);
+  accumulate(takenBackNextStep_, impulse, -1.0);
 }
 
 void ForcePulse::owe(const PlanarImpulse& impulse) { thisStep_ += impulse; }
@@ -45,6 +47,8 @@ PlanarForce ForcePulse::take(double step) {
   const PlanarImpulse now = due(step);
   thisStep_ = nextStep_;
   nextStep_ = {};
+  takenBackThisStep_ = takenBackNextStep_;
+  takenBackNextStep_ = {};
   std::size_t running = 0;
   for (std::size_t i = 0; i < longCount_; ++i) {
     Long pulse = long_[i];
@@ -79,12 +83,35 @@ bool ForcePulse::isEmpty() const {
   return longCount_ == 0 && isZero(thisStep_) && isZero(nextStep_);
 }
 
+void ForcePulse::reconcile(const PlanarImpulse& surplus, const Ordinary& ordinary, double mass,
+                           double yawInertia) {
+  PlanarImpulse impacts = thisStep_;
+  accumulate(impacts, takenBackThisStep_, -1.0);
+  PlanarImpulse whole = impacts;
+  for (std::size_t i = 0; i < longCount_; ++i) whole += long_[i].left;
+
+  const auto product = [&](double linear, double angular) {
+    return linear / mass + angular / yawInertia;
+  };
+  const double all = product(whole.linear.squaredNorm(), whole.angular * whole.angular);
+  if (!(all > 0.0)) return;
+  const double done =
+      product(surplus.linear.dot(whole.linear), surplus.angular * whole.angular) -
+      product(ordinary.linear * whole.linear.norm(), ordinary.angular * std::abs(whole.angular));
+  const double share = std::clamp(done / all, 0.0, 1.0);
+  if (share == 0.0) return;
+  accumulate(thisStep_, impacts, -share);
+  for (std::size_t i = 0; i < longCount_; ++i) accumulate(long_[i].left, long_[i].left, -share);
+}
+
 void ForcePulse::turnFrame(const Vector2& ahead) {
   const auto turn = [&ahead](PlanarImpulse& impulse) {
     impulse.linear = {ahead.dot(impulse.linear), cross(ahead, impulse.linear)};
   };
   turn(thisStep_);
   turn(nextStep_);
+  turn(takenBackThisStep_);
+  turn(takenBackNextStep_);
   for (std::size_t i = 0; i < longCount_; ++i) turn(long_[i].left);
 }
 

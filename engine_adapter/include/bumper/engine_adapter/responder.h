@@ -33,6 +33,10 @@ struct ResponderOptions {
   ResponseSettings response{};
   ContactSource contactSource = ContactSource::exact_cut;
   Delivery delivery = Delivery::force_pulse;
+  /// Whether a vehicle that joints or contacts act on gets guard contacts: contact joints of
+  /// Bumper's own with the walls nearby, for one step, through which nothing that pushes can press
+  /// it. A free body gets none.
+  bool guardContacts = true;
   /// Whether what a vehicle cannot reach is left out of a step, and what was near it in one step is
   /// remembered for the next. Off: every step asks for everything anew. The result is the same.
   bool skipping = true;

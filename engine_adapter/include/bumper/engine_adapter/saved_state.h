@@ -28,6 +28,7 @@ struct SustainedContact {
   double impulseNormal = 0.0;   ///< N s, the sum
   double impulseTangent = 0.0;  ///< N s, the sum
   double energyLost = 0.0;      ///< J, the sum
+  double load = 0.0;            ///< N, along the normal: the largest of late, fading
   Eigen::Vector3d contact = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
 };
@@ -39,20 +40,26 @@ struct LastDelivery {
   PlanarImpulse impulse;  ///< in the vehicle's axes then
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-  Eigen::Vector3d turning = Eigen::Vector3d::Zero();  ///< rad/s
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d forceBefore = Eigen::Vector3d::Zero();  ///< on the chassis, N: the application's
-  Eigen::Vector3d forceAfter = Eigen::Vector3d::Zero();   ///< … with what was delivered
 };
 
-/// What the last step's known forces should have led to, and what the unknown ones were lately.
+/// What the last step's known forces should have led to, where joints act as well and a pulse goes
+/// on.
 struct Expectation {
-  double step = 0.0;  ///< s; 0: nothing is expected
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  double step = 0.0;                                   ///< s; 0: nothing is expected
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< of the mass centre, m/s
   double yawRate = 0.0;
-  bool known = false;                                      ///< whether the accelerations are
-  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< m/s², a running mean
-  double yawAcceleration = 0.0;                            ///< rad/s², a running mean
+};
+
+/// A guard contact of the last step, and what it did.
+struct GuardLoad {
+  BarrierId barrier;
+  int wall = 0;  ///< number in the barrier
+  Eigen::Vector3d contact = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, into the vehicle
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();       ///< from the mass centre, m
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< of the point, before, m/s
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();     ///< on the vehicle, N
 };
 
 /// All that is remembered of a vehicle.
@@ -63,6 +70,7 @@ struct VehicleMemory {
   Expectation expectation;
   std::vector<Passage> passages;
   std::vector<SustainedContact> contacts;
+  std::vector<GuardLoad> guards;  ///< in a saved state only
 };
 
 /// All that a responder remembers: Responder::save() and restore().

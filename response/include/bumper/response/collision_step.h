@@ -5,6 +5,7 @@
 
 #include "bumper/response/force_pulse.h"
 #include "bumper/response/impact.h"
+#include "bumper/response/speculative_contact.h"
 #include "bumper/response/sweep.h"
 
 namespace bumper {
@@ -59,6 +60,13 @@ class CollisionStep {
   /// answered as the paper does: once, where the step begins, by their overlap.
   StepOutcome resolve(const VehicleParameters& vehicle, const PlanarMotion& motion,
                       std::span<const WallSegment> walls, double h);
+
+  /// Of the step that was resolved last, before its impacts: the points of the outline that may
+  /// meet a wall with which it is no further apart than `distance`, m, for the engine's own solver.
+  /// `motion` and `h` as for resolve(). Walls into which a vehicle may go are left out: those that
+  /// break, those with a contact time, those of Method::paper. Valid until the next call.
+  std::span<const SpeculativeContact> speculativeContacts(const PlanarMotion& motion,
+                                                          double distance, double h);
 
   /// How far any point of the outline can come in a step of `h` seconds, whatever it hits, and how
   /// far beyond that walls take part in a contact point, m.
@@ -140,6 +148,7 @@ class CollisionStep {
   std::vector<Ordered> order_;
   std::vector<Wall> walls_;
   std::vector<StepImpact> impacts_;
+  SpeculativeContacts speculative_;
 };
 
 }  // namespace bumper

@@ -46,6 +46,22 @@ class ForcePulse {
   [[nodiscard]] PlanarImpulse pending() const;
   [[nodiscard]] bool isEmpty() const;
 
+  /// By how much others, whose forces are not known before a step, may push a vehicle that is in no
+  /// impact: tyres, motors.
+  struct Ordinary {
+    double linear = 0.0;   ///< N s, ≥ 0
+    double angular = 0.0;  ///< N m s, ≥ 0
+  };
+
+  /// Takes out of what is pending of impacts, P, what contacts and joints that the engine solves
+  /// have done of it already. `surplus`, D, is mass and yaw inertia times the difference between
+  /// the motion as it came out and as it was expected. The share clamp((D·P − o·|P|) / (P·P), 0, 1)
+  /// is taken, where · is the product of energy (linear parts over the mass, angular ones over the
+  /// yaw inertia) and o is what is `ordinary`: the vehicle goes as fast along P as the law says, or
+  /// as others have made it go, not both. What a shift() takes back stays.
+  void reconcile(const PlanarImpulse& surplus, const Ordinary& ordinary, double mass,
+                 double yawInertia);
+
   /// Writes all impulses in a frame whose x axis points along `ahead`, unit, in the old one.
   void turnFrame(const Vector2& ahead);
 
@@ -63,6 +79,9 @@ class ForcePulse {
 
   PlanarImpulse thisStep_;
   PlanarImpulse nextStep_;
+  // The part of each that takes a shift() back.
+  PlanarImpulse takenBackThisStep_;
+  PlanarImpulse takenBackNextStep_;
   std::array<Long, maxLong> long_{};
   std::size_t longCount_ = 0;
 };

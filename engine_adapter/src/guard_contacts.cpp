@@ -1,0 +1,108 @@
+#include "guard_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ode_vectors.h"
+
+namespace bumper {
+
+namespace {
+
+// Soft enough for a solver of redundant contacts, whatever the world's own is: 200 kN gives way by
+// 0.02 mm/s.
+constexpr double constraintForceMixing = 1e-10;
+
+// Less friction than this is none: rows that can do nothing are trouble for dWorldStep.
+constexpr double leastFriction = 1e-3;
+
+// Two corners that reach a wall at the very same moment are a tie that dWorldStep's solver does not
+// get over: it gives up all forces of the step. So no two demands are quite the same, m/s.
+constexpr double mostDither = 1e-7;
+
+// In [0, 1), another for each step and each guard: the multiples of these two spread evenly, also
+// where steps are a round number of milliseconds.
+double dither(double time, std::size_t number) {
+  constexpr double eachSecond = 7548.776662466927;
+  constexpr double eachGuard = 0.6180339887498949;
+  const double turns = eachSecond * time + eachGuard * static_cast<double>(number);
+  return turns - std::floor(turns);
+}
+
+bool anyOuterJoint(const VehicleBodies& bodies, auto&& counts) {
+  const std::span<const dBodyID> own = bodies.all();
+  return std::any_of(own.begin(), own.end(), [&](dBodyID body) {
+    const int count = dBodyGetNumJoints(body);
+    for (int i = 0; i < count; ++i) {
+      const dJointID joint = dBodyGetJoint(body, i);
+      if (dJointIsEnabled(joint) == 0) continue;
+      const dBodyID first = dJointGetBody(joint, 0);
+      const dBodyID other = first == body ? dJointGetBody(joint, 1) : first;
+      if (std::find(own.begin(), own.end(), other) == own.end() && counts(other)) return true;
+    }
+    return false;
+  });
+}
+
+}  // namespace
+
+bool hasOuterJoint(const VehicleBodies& bodies) {
+  return anyOuterJoint(bodies, [](dBodyID) { return true; });
+}
+
+bool isHeldByAwakeBody(const VehicleBodies& bodies) {
+  return anyOuterJoint(
+      bodies, [](dBodyID other) { return other != nullptr && dBodyIsEnabled(other) != 0; });
+}
+
+void GuardContacts::add(const Guard& guard, dJointGroupID group, dBodyID chassis,
+                        const VehicleState& state, double time) {
+  if (count_ == loads_.size()) return;
+  GuardLoad& load = loads_[count_];
+  load.barrier = guard.barrier;
+  load.wall = guard.wall;
+  load.arm = state.toWorld(guard.contact.arm);
+  load.contact = state.massCentre + load.arm;
+  load.normal = state.toWorld(guard.contact.normal);
+  load.velocity = state.velocityAt(load.arm);
+  load.force.setZero();
+
+  dContact contact{};
+  contact.surface.mode = dContactMotionN | dContactSoftERP | dContactSoftCFM | dContactApprox1;
+  contact.surface.soft_erp = 0.0;
+  contact.surface.soft_cfm = constraintForceMixing;
+  contact.surface.mu = guard.friction >= leastFriction ? guard.friction : 0.0;
+  contact.surface.motionN = guard.normalSpeed - mostDither * dither(time, count_);
+  for (int k = 0; k < 3; ++k) {
+    contact.geom.pos[k] = load.contact[k];
+    contact.geom.normal[k] = load.normal[k];
+  }
+  const dJointID joint = dJointCreateContact(dBodyGetWorld(chassis), group, &contact);
+  dJointAttach(joint, chassis, nullptr);
+  feedback_[count_] = {};
+  dJointSetFeedback(joint, &feedback_[count_]);
+  joints_[count_++] = joint;
+}
+
+std::span<GuardLoad> GuardContacts::loads() {
+  for (std::size_t i = 0; i < count_; ++i) loads_[i].force = toVector(feedback_[i].f1);
+  return {loads_.data(), count_};
+}
+
+void GuardContacts::setLoads(std::span<const GuardLoad> loads) {
+  count_ = std::min(loads.size(), loads_.size());
+  std::copy_n(loads.begin(), count_, loads_.begin());
+  for (std::size_t i = 0; i < count_; ++i) {
+    for (int k = 0; k < 3; ++k) feedback_[i].f1[k] = loads_[i].force[k];
+    joints_[i] = nullptr;
+  }
+}
+
+void GuardContacts::release() {
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (joints_[i] != nullptr) dJointSetFeedback(joints_[i], nullptr);
+  }
+  forget();
+}
+
+}  // namespace bumper

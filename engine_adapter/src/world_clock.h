@@ -1,0 +1,42 @@
+#pragma once
+
+#include <ode/ode.h>
+
+namespace bumper {
+
+/// How long a world has stepped since it was last looked at.
+struct WorldSteps {
+  double total = 0.0;  ///< s, of all steps; 0: none was taken
+  double first = 0.0;  ///< s, of the first: the forces added before act in that one only
+};
+
+/// Tells what the world's steps were, which ODE itself does not. A body of its own, at rest for the
+/// application, does it: no gravity, no damping, no geom in a space, far from nothing since nothing
+/// can touch it. It moves at 1 m/s, so its way is the time; and a force of 1 N on its 1 kg, which
+/// ODE clears after one step, makes its speed the first step's size.
+class WorldClock {
+ public:
+  explicit WorldClock(dWorldID world);
+  /// The world may have been destroyed before.
+  ~WorldClock();
+  WorldClock(const WorldClock&) = delete;
+  WorldClock& operator=(const WorldClock&) = delete;
+  WorldClock(WorldClock&&) = delete;
+  WorldClock& operator=(WorldClock&&) = delete;
+
+  /// From now on.
+  void start();
+  /// Costs the world's steps nothing until the next start().
+  void stop();
+  [[nodiscard]] bool isRunning() const { return running_; }
+  /// Since start(), while it is running.
+  [[nodiscard]] WorldSteps read() const;
+
+ private:
+  dBodyID body_;
+  // ODE takes it from the body when that goes with its world.
+  dGeomID marker_;
+  bool running_ = false;
+};
+
+}  // namespace bumper
