@@ -467,8 +467,7 @@ CollisionStep::NextTouch CollisionStep::nextTouch(double from, double until) {
 }
 
 std::span<const SpeculativeContact> CollisionStep::speculativeContacts(const PlanarMotion& motion,
-                                                                       double distance,
-                                                                       double h) {
+                                                                       double distance, double h) {
   speculative_.clear();
   motion_ = motion;
   lookAround(0.0);
