@@ -31,7 +31,13 @@ constexpr double standsInDepth = 0.05;
 // together. Towards the end of what one step allows none rebounds either.
 constexpr int plasticAfter = 8;
 constexpr int togetherAfter = 16;
-constexpr std::size_t plasticInStepAfter = 40;
+constexpr int plasticInStepAfter = 40;
+
+// Solved together are the last impacts of a step, and those before which as many were not.
+constexpr int mostTogether = (CollisionStep::maxAnswers - 1) / (togetherAfter + 1) + 1;
+static_assert(CollisionStep::maxImpacts ==
+              CollisionStep::maxAnswers +
+                  mostTogether * (static_cast<int>(mostCarryingPoints) - 1));
 
 // What is found deeper than this within a step, m, was not touched anew: it slides.
 constexpr double slidingDepth = 10.0 * touchTolerance;
@@ -342,6 +348,7 @@ void CollisionStep::answer(const Next& next, double time, Rebound rebound) {
               vehicle_.yawInertia, settings, rebound);
   record(wall, next.at, time, response);
   wall.struck = true;
+  ++answers_;
   for (Wall& other : walls_) {
     // The paper answers one impact in a step, and no more.
     if (settings.method == Method::paper)
@@ -353,6 +360,11 @@ void CollisionStep::answer(const Next& next, double time, Rebound rebound) {
   }
 }
 
+// All that touches pushes at once. It is told as one impact after the other, of which each fits its
+// own arm and all of them what they do together. The motions between them never were, and may be
+// fast where walls face each other. So the approach speed is the one before them all, and the
+// energy that they take together is told in shares that go by impulse and approach speed: none
+// gains.
 void CollisionStep::answerTogether(double time) {
   std::array<TouchingPoint, mostTouchingPoints> points;
   std::array<Next, mostTouchingPoints> owners;
@@ -366,16 +378,46 @@ void CollisionStep::answerTogether(double time) {
     };
     for (const ContactPoint& point : wall.points.all()) add(point);
   }
-  const PlanarImpulse impulse =
-      endApproach(motion_, vehicle_.mass, vehicle_.yawInertia, std::span(points.data(), count));
-  // It is told as an impact with the wall that pushes most squarely.
-  const auto* main =
-      std::max_element(owners.data(), owners.data() + count, [&](const Next& a, const Next& b) {
-        return a.at.normal.dot(impulse.linear) < b.at.normal.dot(impulse.linear);
-      });
-  record(*main->wall, main->at, time,
-         plainResponse({.normal = main->at.normal, .arm = main->at.contact.arm}, motion_,
-                       vehicle_.mass, vehicle_.yawInertia, impulse));
+  const double mass = vehicle_.mass;
+  const double yawInertia = vehicle_.yawInertia;
+  SharedImpulse impulse = endApproach(motion_, mass, yawInertia, std::span(points.data(), count));
+  const std::span<CarryingPoint> shares = impulse.all();
+  const auto speedAt = [&](const CarryingPoint& share) { return owners[share.point].at.speed; };
+  for (auto next = shares.begin(); next != shares.end(); ++next) {
+    std::iter_swap(next, std::max_element(next, shares.end(), [&](const auto& a, const auto& b) {
+                     return speedAt(a) < speedAt(b);
+                   }));
+  }
+
+  const PlanarMotion after = afterImpulse(motion_, impulse.sum, mass, yawInertia);
+  double energy = yawPlaneEnergy(motion_, mass, yawInertia);
+  const double change = yawPlaneEnergy(after, mass, yawInertia) - energy;
+  const auto weightOf = [&](const CarryingPoint& share) {
+    return share.impulse * std::max(speedAt(share), 0.0);
+  };
+  double weight = 0.0;
+  for (const CarryingPoint& share : shares) weight += weightOf(share);
+
+  PlanarImpulse left = impulse.sum;
+  for (const CarryingPoint& share : shares) {
+    const auto& [wall, at] = owners[share.point];
+    const bool last = &share == &shares.back();
+    // The last one takes what rounding leaves.
+    const PlanarImpulse part =
+        last ? left : onVehicle({.normal = share.impulse}, at.normal, at.contact.arm);
+    left.linear -= part.linear;
+    left.angular -= part.angular;
+    ImpactResponse response = plainResponse({.normal = at.normal, .arm = at.contact.arm}, motion_,
+                                            mass, yawInertia, part);
+    if (last) response.after = after;
+    response.approachSpeed = at.speed;
+    response.contact.energyChange = change * weightOf(share) / weight;
+    const double kept = std::max(energy + response.contact.energyChange, 0.0);
+    response.energyRatio = energy > 0.0 ? kept / energy : 1.0;
+    energy = kept;
+    record(*wall, at, time, response);
+  }
+  ++answers_;
 }
 
 // Applies impulses until nothing that touches approaches.
@@ -384,15 +426,14 @@ CollisionStep::Settled CollisionStep::settle(double time) {
     Next next = firstNewWall();
     if (next.wall == nullptr) next = fastestStruckWall();
     if (next.wall == nullptr) return count > 0 ? Settled::by_impulses : Settled::without_impulse;
-    const bool last = impacts_.size() + 1 == maxImpacts;
+    const bool last = answers_ + 1 == maxAnswers;
     if (last || count >= togetherAfter) {
       answerTogether(time);
       return last ? Settled::for_now : Settled::by_impulses;
     }
     const Overlap& overlap = next.wall->overlap;
     const bool slides = time > 0.0 && overlap.byEnd && overlap.depth > slidingDepth;
-    const bool tooMany =
-        count >= plasticAfter || (!slides && impacts_.size() >= plasticInStepAfter);
+    const bool tooMany = count >= plasticAfter || (!slides && answers_ >= plasticInStepAfter);
     Rebound rebound = slides ? Rebound::elastic : Rebound::as_set;
     if (tooMany) rebound = Rebound::none;
     answer(next, time, rebound);
@@ -490,6 +531,7 @@ StepOutcome CollisionStep::resolve(const VehicleParameters& vehicle, const Plana
   motion_ = motion;
   given_ = walls;
   impacts_.clear();
+  answers_ = 0;
   StepOutcome outcome;
   mergeWalls(walls, motion_.position);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 
@@ -16,10 +17,32 @@ struct TouchingPoint {
 /// More never count at once.
 inline constexpr std::size_t mostTouchingPoints = 64;
 
+/// A rigid motion in the plane has three freedoms: no more points are needed to end any of them.
+inline constexpr std::size_t mostCarryingPoints = 3;
+
+/// What one of the points pushes.
+struct CarryingPoint {
+  std::size_t point = 0;  ///< its place among those that were given
+  double impulse = 0.0;   ///< along its normal, N s, > 0
+};
+
+/// An impulse and the points that it comes from.
+struct SharedImpulse {
+  PlanarImpulse sum;
+  std::array<CarryingPoint, mostCarryingPoints> shares;
+  std::size_t count = 0;  ///< of the shares
+
+  [[nodiscard]] std::span<CarryingPoint> all() { return {shares.data(), count}; }
+};
+
 /// The impulse that ends all approach at these points at once, without friction or rebound: of all
 /// motions in which none approaches it leads to the nearest one, in the measure of kinetic energy,
 /// so it never adds energy. At most mostTouchingPoints.
-PlanarImpulse endApproach(const PlanarMotion& motion, double mass, double yawInertia,
+///
+/// The sum does not depend on the order of the points. The shares make it up to rounding, each with
+/// its moment about the mass centre; where several sets of points could carry it, the order
+/// decides. Between walls that face each other they can be much larger than the sum.
+SharedImpulse endApproach(const PlanarMotion& motion, double mass, double yawInertia,
                           std::span<const TouchingPoint> points);
 
 }  // namespace bumper

@@ -377,7 +377,7 @@ TEST(SweptStep, AfterTooManyImpactsTheVehicleIsHeld) {
         << i << s;
     if (outcome.settled) continue;
     ++held;
-    ASSERT_EQ(outcome.impacts.size(), static_cast<std::size_t>(CollisionStep::maxImpacts)) << s;
+    ASSERT_GE(outcome.impacts.size(), static_cast<std::size_t>(CollisionStep::maxAnswers)) << s;
     const Replay expected = replay(s, outcome);
     ASSERT_NEAR((outcome.after.position - expected.atLastImpact.position).norm(), 0.0, rounding)
         << i << s;

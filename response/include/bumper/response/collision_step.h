@@ -10,7 +10,13 @@
 
 namespace bumper {
 
-/// An impact of this step and the response to it.
+/// An impact of this step and the response to it. Its impulse acts at its arm, and leads from the
+/// motion before to the motion after.
+///
+/// What several points take at once, when many impacts at one instant are solved together, is told
+/// as one impact for each, the fastest first. The motions in between never were, and may be fast
+/// where walls face each other. So approachSpeed is the one before all of them; energyChange and
+/// energyRatio are shares, none of which gains, of what all of them together do to the energy.
 struct StepImpact {
   double time = 0.0;  ///< of the impact, s from the step's start
   Impact impact{};
@@ -35,7 +41,7 @@ struct StepOutcome {
   PlanarMotion after;     ///< at the step's end; the paper's other choice, state reset
   /// A motion for this step only: it is part of `after`'s position and yaw, not of its velocity.
   StepShift shift;
-  /// False: after maxImpacts the vehicle was held where it was for the rest of the step.
+  /// False: after maxAnswers the vehicle was held where it was for the rest of the step.
   bool settled = true;
 };
 
@@ -45,9 +51,12 @@ class CollisionStep {
  public:
   CollisionStep();
 
-  /// At most this many impulses are applied in one step. The last of them ends all approach, and
-  /// the vehicle is held where it is until the next step.
-  static constexpr int maxImpacts = 48;
+  /// At most this many times an impulse answers what approaches in one step. The last of them ends
+  /// all approach, and the vehicle is held where it is until the next step.
+  static constexpr int maxAnswers = 48;
+  /// At most this many impacts are told: an answer to all that touches together, of which there are
+  /// three at most, is told as up to three impacts.
+  static constexpr int maxImpacts = maxAnswers + 6;
   /// An outline is eased out of a wall no faster than this, m/s.
   static constexpr double maxEaseOut = 2.0;
 
@@ -148,6 +157,7 @@ class CollisionStep {
   std::vector<Ordered> order_;
   std::vector<Wall> walls_;
   std::vector<StepImpact> impacts_;
+  int answers_ = 0;
   SpeculativeContacts speculative_;
 };
 

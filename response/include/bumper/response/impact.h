@@ -53,7 +53,8 @@ ImpactResponse respond(const Impact& impact, const PlanarMotion& motion, double 
                        double yawInertia, const ResponseSettings& settings,
                        Rebound rebound = Rebound::as_set);
 
-/// The same for an impulse that no law asked for: it ends the approach at several points at once.
+/// The same for an impulse that no law asked for: it is one of those that end the approach at
+/// several points at once.
 ImpactResponse plainResponse(const Impact& impact, const PlanarMotion& motion, double mass,
                              double yawInertia, const PlanarImpulse& impulse);
 
