@@ -72,7 +72,7 @@ void GuardContacts::add(const Guard& guard, dJointGroupID group, dBodyID chassis
   contact.surface.soft_erp = 0.0;
   contact.surface.soft_cfm = constraintForceMixing;
   contact.surface.mu = guard.friction >= leastFriction ? guard.friction : 0.0;
-  contact.surface.motionN = guard.normalSpeed - mostDither * dither(time, count_);
+  contact.surface.motionN = guard.contact.leastSpeed - mostDither * dither(time, count_);
   for (int k = 0; k < 3; ++k) {
     contact.geom.pos[k] = load.contact[k];
     contact.geom.normal[k] = load.normal[k];

@@ -29,9 +29,8 @@ class GuardContacts {
   struct Guard {
     SpeculativeContact contact;  ///< in the vehicle's axes
     BarrierId barrier;
-    int wall = 0;              ///< number in the barrier
-    double friction = 0.0;     ///< Coulomb's coefficient
-    double normalSpeed = 0.0;  ///< the least that the point must have, m/s
+    int wall = 0;           ///< number in the barrier
+    double friction = 0.0;  ///< Coulomb's coefficient
   };
 
   /// Adds one to `group`, at the height of the mass centre, until it is emptied; no more than

@@ -105,9 +105,10 @@ struct Responder::Implementation {
   void collectWalls(Vehicle& vehicle, const VehicleState& state, const PlanarMotion& motion,
                     bool guarded, double h);
   void leaveOutPassages(Vehicle& vehicle);
-  void answerCuts(Vehicle& vehicle, const VehicleState& state, const PlanarMotion& motion,
-                  double h);
-  void addGuards(Vehicle& vehicle, const VehicleState& state, const PlanarMotion& motion, double h);
+  PlanarMotion answerCuts(Vehicle& vehicle, const VehicleState& state, const PlanarMotion& motion,
+                          double h);
+  void addGuards(Vehicle& vehicle, const VehicleState& state, const PlanarMotion& motion,
+                 const PlanarMotion& after, double h);
   void answerContacts(Vehicle& vehicle, const VehicleState& state, PlanarMotion motion, double h);
   void give(Vehicle& vehicle, const VehicleState& state, double h);
   [[nodiscard]] static ImpactEvent eventAt(const Vehicle& vehicle, const Barrier& barrier, int wall,

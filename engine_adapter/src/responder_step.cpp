@@ -314,11 +314,12 @@ void Responder::Implementation::collectWalls(Vehicle& vehicle, const VehicleStat
   vehicle.nearby.collect(vehicle.query, barriers, state, question, segments);
 }
 
-// For the walls in `segments`, after their impacts have been found.
+// For the walls in `segments`, after their impacts have been found; `after` as these leave it.
 void Responder::Implementation::addGuards(Vehicle& vehicle, const VehicleState& state,
-                                          const PlanarMotion& motion, double h) {
+                                          const PlanarMotion& motion, const PlanarMotion& after,
+                                          double h) {
   const double near = nearDistance(motion.velocity.norm(), h);
-  for (const SpeculativeContact& contact : collision.speculativeContacts(motion, near, h)) {
+  for (const SpeculativeContact& contact : collision.speculativeContacts(motion, after, near, h)) {
     const BarrierWall hit = vehicle.nearby.at(contact.wall);
     const ResponseSettings& settings = *contact.settings;
     const bool slides =
@@ -329,14 +330,13 @@ void Responder::Implementation::addGuards(Vehicle& vehicle, const VehicleState& 
          .barrier = hit.barrier->id(),
          .wall = hit.wall,
          .friction =
-             slides ? settings.friction(attackDirection(impact, motion, settings.angle)) : 0.0,
-         .normalSpeed = leastNormalSpeed(contact, motion.yawRate, h)},
+             slides ? settings.friction(attackDirection(impact, motion, settings.angle)) : 0.0},
         guardJoints.get(), vehicle.bodies.chassis(), state, time);
   }
 }
 
-void Responder::Implementation::answerCuts(Vehicle& vehicle, const VehicleState& state,
-                                           const PlanarMotion& motion, double h) {
+PlanarMotion Responder::Implementation::answerCuts(Vehicle& vehicle, const VehicleState& state,
+                                                   const PlanarMotion& motion, double h) {
   const StepOutcome outcome =
       collision.resolve(withMassOf(vehicle.parameters, state), motion, segments, h);
   if (!outcome.settled) vehicle.issues |= step_issue::unsettled;
@@ -361,6 +361,7 @@ void Responder::Implementation::answerCuts(Vehicle& vehicle, const VehicleState&
     }
     report(vehicle, state, barrier, wall, each);
   }
+  return outcome.after;
 }
 
 void Responder::Implementation::answerContacts(Vehicle& vehicle, const VehicleState& state,
@@ -439,8 +440,8 @@ void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
   leaveOutPassages(vehicle);
   if (!exact && upright) answerContacts(vehicle, state, motion, h);
   if (!segments.empty()) {
-    answerCuts(vehicle, state, motion, h);
-    if (guarded) addGuards(vehicle, state, motion, h);
+    const PlanarMotion after = answerCuts(vehicle, state, motion, h);
+    if (guarded) addGuards(vehicle, state, motion, after, h);
   }
   if (memory.pulse.isEmpty()) return;
   give(vehicle, state, h);

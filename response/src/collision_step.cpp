@@ -6,7 +6,6 @@
 #include <limits>
 #include <tuple>
 
-#include "penetration_recovery.h"
 #include "simultaneous_contacts.h"
 
 namespace bumper {
@@ -38,6 +37,10 @@ constexpr int mostTogether = (CollisionStep::maxAnswers - 1) / (togetherAfter + 
 static_assert(CollisionStep::maxImpacts ==
               CollisionStep::maxAnswers +
                   mostTogether * (static_cast<int>(mostCarryingPoints) - 1));
+
+// Part of a depth that is eased out in a step, and what is left in peace, m.
+constexpr double easeOutShare = 0.2;
+constexpr double easeOutDepth = 1e-4;
 
 // What is found deeper than this within a step, m, was not touched anew: it slides.
 constexpr double slidingDepth = 10.0 * touchTolerance;
@@ -446,8 +449,9 @@ Vector2 CollisionStep::easeOut(double h) const {
   Vector2 velocity = Vector2::Zero();
   for (const Wall& wall : walls_) {
     if (!wall.touched || wall.hidden || wall.segment.settings->method == Method::paper) continue;
-    const double wanted = recoverySpeed(wall.overlap.depth, h, maxEaseOut);
-    if (wanted <= 0.0) continue;
+    const double depth = wall.overlap.depth - easeOutDepth;
+    if (depth <= 0.0) continue;
+    const double wanted = std::min(easeOutShare * depth / h, maxEaseOut);
     const double missing = wanted - velocity.dot(wall.overlap.normal);
     if (missing > 0.0) velocity += missing * wall.overlap.normal;
   }
@@ -508,6 +512,7 @@ CollisionStep::NextTouch CollisionStep::nextTouch(double from, double until) {
 }
 
 std::span<const SpeculativeContact> CollisionStep::speculativeContacts(const PlanarMotion& motion,
+                                                                       const PlanarMotion& after,
                                                                        double distance, double h) {
   speculative_.clear();
   motion_ = motion;
@@ -518,8 +523,8 @@ std::span<const SpeculativeContact> CollisionStep::speculativeContacts(const Pla
         settings.method == Method::paper || settings.contactTime > 0.0 ||
         (settings.law == Law::energy && settings.energyRoot == EnergyRoot::break_through);
     if (mayBeEntered || wall.hidden) continue;
-    addSpeculativeContacts(outline_, motion_, wall.segment, wall.touched ? &wall.overlap : nullptr,
-                           distance, h, speculative_);
+    addSpeculativeContacts(outline_, motion, after, wall.segment,
+                           wall.touched ? &wall.overlap : nullptr, distance, h, speculative_);
   }
   return speculative_.all();
 }

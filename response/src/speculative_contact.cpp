@@ -3,36 +3,29 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bumper/response/collision_step.h"
-#include "penetration_recovery.h"
-
 namespace bumper {
 
 namespace {
 
-constexpr double micrometre = 1e-6;
+// By which a point may pass its wall, m: more than what rounds in a free motion.
+constexpr double allowance = 1e-6;
 
-// When a gap closes at a speed, s; 0 if it does not close within the step.
-double timeToClose(double gap, double speed, double step) {
-  return gap > 0.0 && speed > 0.0 && gap <= speed * step ? gap / speed : 0.0;
-}
-
-// A wall's end or a post before one side of the outline: `place` in the vehicle's frame.
+// A wall's end or a post before one side of the outline.
 struct Facing {
   Vector2 out;        // the side's normal outwards, in the vehicle's frame
   double gap;         // m
-  double along;       // where on the side, m from its middle
+  double fromMiddle;  // of the side, along it, m
   double halfLength;  // of the side, m
 };
 
+// `place` is in the vehicle's frame.
 std::array<Facing, 4> facings(const Outline& outline, const Vector2& place) {
-  const double middle = 0.5 * (outline.front - outline.rear);
   const double half = 0.5 * (outline.front + outline.rear);
-  const double fromMiddle = place.x() - middle;
+  const double ahead = place.x() - 0.5 * (outline.front - outline.rear);
   return {{{{1.0, 0.0}, place.x() - outline.front, place.y(), outline.halfWidth},
            {{-1.0, 0.0}, -place.x() - outline.rear, place.y(), outline.halfWidth},
-           {{0.0, 1.0}, place.y() - outline.halfWidth, fromMiddle, half},
-           {{0.0, -1.0}, -place.y() - outline.halfWidth, fromMiddle, half}}};
+           {{0.0, 1.0}, place.y() - outline.halfWidth, ahead, half},
+           {{0.0, -1.0}, -place.y() - outline.halfWidth, ahead, half}}};
 }
 
 }  // namespace
@@ -48,61 +41,57 @@ void SpeculativeContacts::add(const SpeculativeContact& contact) {
   *place = contact;
 }
 
-void addSpeculativeContacts(const Outline& outline, const PlanarMotion& motion,
-                            const WallSegment& wall, const Overlap* touch, double distance,
-                            double step, SpeculativeContacts& contacts) {
-  const Placement at = motion.placement();
-  SpeculativeContact contact{.wall = wall.id, .settings = wall.settings};
+void addSpeculativeContacts(const Outline& outline, const PlanarMotion& start,
+                            const PlanarMotion& end, const WallSegment& wall, const Overlap* touch,
+                            double distance, double step, SpeculativeContacts& contacts) {
+  const Placement from = start.placement();
+  const Placement to = end.placement();
+  // What carries the vehicle from one to the other, as an engine does.
+  const Vector2 velocity = (to.position - from.position) / step;
+  const double yawRate = (end.yaw - start.yaw) / step;
+  const auto add = [&](const Vector2& normal, const Vector2& arm, double gap) {
+    const double speed = normal.dot(velocity + yawRate * turnedLeft(arm));
+    contacts.add({.wall = wall.id,
+                  .settings = wall.settings,
+                  .normal = normal,
+                  .arm = arm,
+                  .gap = gap,
+                  .leastSpeed = speed - (std::max(gap, 0.0) + allowance) / step});
+  };
 
+  const bool byFace = touch != nullptr && !touch->byEnd;
   if (!wall.isPost()) {
-    const bool byFace = touch != nullptr && !touch->byEnd;
-    const Overlap line = byFace ? *touch : lineOf(wall, at.position);
+    const Overlap line = byFace ? *touch : lineOf(wall, from.position);
     const Vector2 tangent = turnedLeft(line.normal);
     for (const Vector2& corner : outline.corners()) {
-      contact.normal = line.normal;
-      contact.arm = at.turned(corner);
-      const Vector2 place = at.position + contact.arm;
-      contact.gap = line.normal.dot(place) - line.offset;
-      if (contact.gap > distance || (!byFace && contact.gap < -touchTolerance)) continue;
-      const Vector2 velocity = velocityAt(motion, contact.arm);
-      const double time = timeToClose(contact.gap, -line.normal.dot(velocity), step);
-      const double along = tangent.dot(place + time * velocity);
+      const Vector2 arm = to.turned(corner);
+      const Vector2 place = to.position + arm;
+      const double gap = line.normal.dot(place) - line.offset;
+      // One that is behind the wall, and the wall not in the outline, has come round its end.
+      if (gap > distance || (!byFace && gap < -allowance)) continue;
+      const double along = tangent.dot(place);
       if (along < line.start - touchTolerance || along > line.end + touchTolerance) continue;
-      contacts.add(contact);
+      add(line.normal, arm, gap);
     }
   }
 
-  const auto addEnd = [&](const Vector2& end) {
-    const Vector2 place = at.local(end);
-    const Vector2 approach = -at.turnedBack(velocityAt(motion, end - at.position));
-    for (const Facing& facing : facings(outline, place)) {
+  const auto addEnd = [&](const Vector2& wallEnd) {
+    for (const Facing& facing : facings(outline, to.local(wallEnd))) {
       const double gap = facing.gap - wall.radius;
-      if (gap < -touchTolerance || gap > distance) continue;
-      const double time = timeToClose(gap, -facing.out.dot(approach), step);
-      const Vector2 side = turnedLeft(facing.out).cwiseAbs();
-      const double along = facing.along + time * side.dot(approach);
-      if (std::abs(along) > facing.halfLength + touchTolerance) continue;
-      contact.normal = -at.turned(facing.out);
-      contact.arm = end - at.position + (facing.gap) * contact.normal;
-      contact.gap = gap;
-      contacts.add(contact);
+      if (gap < -allowance || gap > distance) continue;
+      if (std::abs(facing.fromMiddle) > facing.halfLength + touchTolerance) continue;
+      const Vector2 normal = -to.turned(facing.out);
+      add(normal, wallEnd - to.position + facing.gap * normal, gap);
     }
   };
   if (touch != nullptr && touch->byEnd) {
-    contact.normal = touch->normal;
-    contact.arm = firstPoint(at.position, *touch).arm;
-    contact.gap = -touch->depth;
-    contacts.add(contact);
+    // Wherever on the outline it is when the step is over.
+    const Vector2 arm = to.turned(from.turnedBack(firstPoint(from.position, *touch).arm));
+    add(touch->normal, arm, std::min(-touch->depth, 0.0));
     return;
   }
   addEnd(wall.start);
   if (!wall.isPost()) addEnd(wall.end);
-}
-
-double leastNormalSpeed(const SpeculativeContact& contact, double yawRate, double step) {
-  const double turned = yawRate * step;
-  const double room = contact.gap + 0.5 * turned * turned * contact.arm.norm() + micrometre;
-  return room >= 0.0 ? -room / step : recoverySpeed(-room, step, CollisionStep::maxEaseOut);
 }
 
 }  // namespace bumper

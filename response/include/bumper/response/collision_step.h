@@ -70,11 +70,13 @@ class CollisionStep {
   StepOutcome resolve(const VehicleParameters& vehicle, const PlanarMotion& motion,
                       std::span<const WallSegment> walls, double h);
 
-  /// Of the step that was resolved last, before its impacts: the points of the outline that may
-  /// meet a wall with which it is no further apart than `distance`, m, for the engine's own solver.
-  /// `motion` and `h` as for resolve(). Walls into which a vehicle may go are left out: those that
-  /// break, those with a contact time, those of Method::paper. Valid until the next call.
+  /// Of the step that was resolved last: the points of the outline that may meet a wall with which
+  /// they are no further apart than `distance` at its end, m, for the engine's own solver. `motion`
+  /// and `h` as for resolve(), `after` as it came out. Walls into which a vehicle may go are left
+  /// out: those that break, those with a contact time, those of Method::paper. Valid until the next
+  /// call.
   std::span<const SpeculativeContact> speculativeContacts(const PlanarMotion& motion,
+                                                          const PlanarMotion& after,
                                                           double distance, double h);
 
   /// How far any point of the outline can come in a step of `h` seconds, whatever it hits, and how
