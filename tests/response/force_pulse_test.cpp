@@ -340,5 +340,83 @@ TEST(ForcePulse, PositionIsExactToRounding) {
   EXPECT_LT(worst, 1e-12);
 }
 
+constexpr double mass = 1500.0;
+constexpr double inertia = 2600.0;
+
+double energyProduct(const PlanarImpulse& a, const PlanarImpulse& b) {
+  return a.linear.dot(b.linear) / mass + a.angular * b.angular / inertia;
+}
+
+PlanarImpulse scaled(double factor, const PlanarImpulse& impulse) {
+  return {.linear = factor * impulse.linear, .angular = factor * impulse.angular};
+}
+
+// The pulse that an impact in the middle of a step has left.
+ForcePulse halfPending(const PlanarImpulse& impulse) {
+  ForcePulse pulse;
+  pulse.add(scaled(2.0, impulse), 0.5, 1.0);
+  pulse.take(1.0);
+  return pulse;
+}
+
+TEST(ForcePulseReconciled, WhatOthersHaveDoneIsTakenOut) {
+  Random random(77);
+  for (int i = 0; i < 10'000; ++i) {
+    const PlanarImpulse impulse = randomImpulse(random);
+    const double done = random.uniform(-1.0, 2.0);
+    ForcePulse pulse = halfPending(impulse);
+    pulse.reconcile(scaled(done, impulse), {}, mass, inertia);
+    const double left = 1.0 - std::clamp(done, 0.0, 1.0);
+    expectSame(pulse.pending(), scaled(left, impulse), std::to_string(i));
+  }
+}
+
+// Whatever others did: afterwards the motion is no slower along the impulse than the law's or than
+// theirs, and no faster than the faster of the two.
+TEST(ForcePulseReconciled, TheMotionIsTheFasterOfBoth) {
+  Random random(78);
+  for (int i = 0; i < 10'000; ++i) {
+    const PlanarImpulse impulse = randomImpulse(random);
+    const PlanarImpulse surplus = scaled(random.uniform(0.0, 2.0), randomImpulse(random));
+    ForcePulse pulse = halfPending(impulse);
+    pulse.reconcile(surplus, {}, mass, inertia);
+    PlanarImpulse all = pulse.pending();
+    all += surplus;
+    const double bySurplus = energyProduct(surplus, impulse);
+    const double byLaw = energyProduct(impulse, impulse);
+    const double expected = bySurplus > 0.0 ? std::max(bySurplus, byLaw) : byLaw + bySurplus;
+    ASSERT_NEAR(energyProduct(all, impulse), expected, 1e-9 * byLaw) << i;
+  }
+}
+
+TEST(ForcePulseReconciled, OrdinaryForcesAreNoPartOfAnImpact) {
+  const PlanarImpulse impulse{.linear = {3000.0, -400.0}, .angular = 900.0};
+  ForcePulse pulse = halfPending(impulse);
+  const PlanarImpulse braking = scaled(0.01, impulse);
+  pulse.reconcile(braking, {.linear = braking.linear.norm(), .angular = braking.angular}, mass,
+                  inertia);
+  EXPECT_EQ(pulse.pending().linear, impulse.linear);
+  EXPECT_EQ(pulse.pending().angular, impulse.angular);
+}
+
+TEST(ForcePulseReconciled, WhatEasesOutIsTakenBackAllTheSame) {
+  const PlanarImpulse shift{.linear = {0.0, 200.0}, .angular = 30.0};
+  ForcePulse pulse;
+  pulse.shift(shift);
+  pulse.take(1.0);
+  // Somebody pushes into the wall, along what takes the shift back.
+  pulse.reconcile(scaled(-5.0, shift), {}, mass, inertia);
+  expectSame(pulse.pending(), scaled(-1.0, shift), "shift");
+}
+
+TEST(ForcePulseReconciled, LongPulsesShareOneReduction) {
+  const PlanarImpulse impulse{.linear = {-2000.0, 500.0}, .angular = -300.0};
+  ForcePulse pulse;
+  pulse.addLong(impulse, 0.0, 0.1);
+  pulse.addLong(impulse, 0.0, 0.2);
+  pulse.reconcile(scaled(0.5, impulse), {}, mass, inertia);
+  expectSame(pulse.pending(), scaled(1.5, impulse), "long");
+}
+
 }  // namespace
 }  // namespace bumper::tests
