@@ -129,7 +129,8 @@ class Responder {
   [[nodiscard]] bool claims(dGeomID a, dGeomID b) const;
 
   /// Takes Bumper's contacts out of what dCollide(a, b, …) gave, keeps the others in their order in
-  /// front, and returns how many they are.
+  /// front, and returns how many they are. What a contact touches is said by its own geoms: a and b
+  /// may be spaces or geom transforms, in either order.
   int keepUnclaimed(dGeomID a, dGeomID b, dContact* contacts, int count) const;
 
   /// Finds the impacts of the coming step of `h` seconds and adds their forces to the bodies. The
