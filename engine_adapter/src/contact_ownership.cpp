@@ -2,7 +2,9 @@
 
 #include <ode/ode.h>
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <optional>
 
 #include "bumper/engine_adapter/responder.h"
 #include "ode_vectors.h"
@@ -15,6 +17,7 @@ namespace {
 /// A vehicle's geom against a barrier's, in either order.
 struct OwnedPair {
   const Vehicle* vehicle = nullptr;
+  dBodyID body = nullptr;  // of the vehicle's geom
   const Barrier* barrier = nullptr;
   bool barrierFirst = false;
   explicit operator bool() const { return vehicle != nullptr; }
@@ -29,7 +32,7 @@ OwnedPair ordered(const Responder::Implementation& responder, dGeomID vehicleGeo
   if (barrier == responder.barrierOfGeom.end()) return {};
   const auto vehicle = responder.vehicleOfBody.find(body);
   if (vehicle == responder.vehicleOfBody.end() || !vehicle->second->isUpright()) return {};
-  return {.vehicle = vehicle->second, .barrier = barrier->second};
+  return {.vehicle = vehicle->second, .body = body, .barrier = barrier->second};
 }
 
 /// The pair, if Bumper may own contacts of it.
@@ -112,21 +115,42 @@ class ContactPairs {
   VehiclePose pose_;
 };
 
-bool isOurs(const OwnedPair& pair, const VehiclePose& pose, const dContactGeom& contact) {
-  const Barrier& barrier = *pair.barrier;
+struct Contact {
+  Eigen::Vector3d place;
+  Eigen::Vector3d normal;
+  int triangle;  // of the barrier's geom; −1 if it has none
+};
+
+/// Whether the contact is one with a wall that reaches into the vehicle's band.
+bool isWithWall(const OwnedPair& pair, const VehiclePose& pose, const Contact& contact) {
   const WallQuery& query = pair.vehicle->query;
-  const int triangle = pair.barrierFirst ? contact.side1 : contact.side2;
-  const Eigen::Vector3d place = toVector(contact.pos);
-  // ODE numbers no triangle where two trimeshes meet along their edges.
-  if (triangle < 0 && dGeomGetClass(barrier.geom()) == dTriMeshClass) {
-    return query.isAboveBottom(pose, place);
-  }
-  const WallPart part = barrier.partAt(triangle, toVector(contact.normal));
+  const WallPart part = pair.barrier->partAt(contact.triangle, contact.normal);
   if (part.kind == WallPart::Kind::none) return false;
-  if (!query.inBand(pose, place, part.foot, part.top)) return false;
+  if (!query.inBand(pose, contact.place, part.foot, part.top)) return false;
   // A cap is the wall's for a vehicle that stands before the wall, and ground for the wheels of
   // one that drives up to its height.
-  return part.kind == WallPart::Kind::face || query.isAboveBottom(pose, place);
+  return part.kind == WallPart::Kind::face || query.isAboveBottom(pose, contact.place);
+}
+
+/// Whether it is one of the chassis with the foot of such a wall: Bumper answers the wall, and the
+/// foot would answer it once more.
+bool isWithFoot(const OwnedPair& pair, const VehiclePose& pose, const Contact& contact) {
+  if (pair.body != pair.vehicle->bodies.chassis()) return false;
+  const std::optional<WallFoot> foot = pair.barrier->footAt(contact.triangle);
+  const WallQuery& query = pair.vehicle->query;
+  return foot && query.isBelowTop(pose, contact.place) &&
+         query.inBand(pose, contact.place, foot->foot, foot->top);
+}
+
+bool isOurs(const OwnedPair& pair, const VehiclePose& pose, const dContactGeom& geom) {
+  const Contact contact{.place = toVector(geom.pos),
+                        .normal = toVector(geom.normal),
+                        .triangle = pair.barrierFirst ? geom.side1 : geom.side2};
+  // ODE numbers no triangle where two trimeshes meet along their edges.
+  if (contact.triangle < 0 && dGeomGetClass(pair.barrier->geom()) == dTriMeshClass) {
+    return pair.vehicle->query.isAboveBottom(pose, contact.place);
+  }
+  return isWithWall(pair, pose, contact) || isWithFoot(pair, pose, contact);
 }
 
 }  // namespace
