@@ -75,9 +75,7 @@ BoxTree::BoxTree(const std::vector<Box>& boxes) {
     high = high.cwiseMax(box.high);
   }
   const double size = (high - low).head<2>().maxCoeff();
-  origin_ = 0.5 * (low + high).head<2>();
-  // Heights stay as they are.
-  const Eigen::Vector3d origin(origin_.x(), origin_.y(), 0.0);
+  origin_.head<2>() = 0.5 * (low + high).head<2>();
   // For what both the box and that which it is compared with lose.
   const double around = rounding * size + 1e-9;
   const double aside = rounding * std::max(std::abs(low.z()), std::abs(high.z())) + 1e-9;
@@ -87,8 +85,8 @@ BoxTree::BoxTree(const std::vector<Box>& boxes) {
   std::vector<Node> level((boxes.size() + arity - 1) / arity);
   for (std::size_t i = 0; i < order_.size(); ++i) {
     const Box& box = boxes[order_[i]];
-    level[i / arity].put(i % arity, (box.low - origin - slack).cast<float>(),
-                         (box.high - origin + slack).cast<float>());
+    level[i / arity].put(i % arity, (box.low - origin_ - slack).cast<float>(),
+                         (box.high - origin_ + slack).cast<float>());
   }
   levels_.push_back(std::move(level));
   while (levels_.back().size() > 1) {

@@ -13,21 +13,21 @@ struct Box {
   Eigen::Vector3d high;
 };
 
-/// Boxes under boxes around four of them each, and so on: which of them are near a place in plan?
-/// In single precision, and never too few.
+/// Boxes under boxes around four of them each, and so on: which of them are near another? In single
+/// precision, and never too few.
 class BoxTree {
  public:
   explicit BoxTree(const std::vector<Box>& boxes);
 
-  /// Calls `visit` with the number of every box for which `enter(squared distance in plan, low,
-  /// high)`, the last two its heights, is true, as it is of the boxes around it.
+  /// Calls `visit` with the number of each box that is no further than `reach`, m, from `other` in
+  /// plan, and overlaps it in height, if `enter(squared distance in plan, low, high)`, the last two
+  /// its heights, is true of it and of the boxes around it.
   template <typename Enter, typename Visit>
-  void search(const Box& around, const Enter& enter, const Visit& visit) const {
+  void search(const Box& other, double reach, const Enter& enter, const Visit& visit) const {
     if (order_.empty()) return;
-    const Query query{.lowX = static_cast<float>(around.low.x() - origin_.x()),
-                      .lowY = static_cast<float>(around.low.y() - origin_.y()),
-                      .highX = static_cast<float>(around.high.x() - origin_.x()),
-                      .highY = static_cast<float>(around.high.y() - origin_.y())};
+    const Query query{.low = (other.low - origin_).cast<float>(),
+                      .high = (other.high - origin_).cast<float>(),
+                      .reach2 = static_cast<float>(reach * reach)};
     descend(levels_.size() - 1, 0, query, enter, visit);
   }
 
@@ -36,7 +36,9 @@ class BoxTree {
   using Four = Eigen::Array4f;
 
   struct Query {
-    float lowX, lowY, highX, highY;
+    Eigen::Vector3f low;
+    Eigen::Vector3f high;
+    float reach2;
   };
 
   /// The boxes of four children; unused ones are infinitely far away. Side by side, so that one
@@ -52,11 +54,15 @@ class BoxTree {
   void descend(std::size_t level, std::size_t number, const Query& query, const Enter& enter,
                const Visit& visit) const {
     const Node& node = levels_[level][number];
-    const Four x = (node.lowX - query.highX).max(query.lowX - node.highX).max(0.0F);
-    const Four y = (node.lowY - query.highY).max(query.lowY - node.highY).max(0.0F);
+    const Four x = (node.lowX - query.high.x()).max(query.low.x() - node.highX).max(0.0F);
+    const Four y = (node.lowY - query.high.y()).max(query.low.y() - node.highY).max(0.0F);
     const Four distance2 = x * x + y * y;
+    const Four excess = (distance2 - query.reach2)
+                            .max(node.lowZ - query.high.z())
+                            .max(query.low.z() - node.highZ);
+    if (excess.minCoeff() > 0.0F) return;
     for (Eigen::Index k = 0; k < 4; ++k) {
-      if (!enter(distance2[k], node.lowZ[k], node.highZ[k])) continue;
+      if (excess[k] > 0.0F || !enter(distance2[k], node.lowZ[k], node.highZ[k])) continue;
       const std::size_t child = arity * number + static_cast<std::size_t>(k);
       if (level > 0) {
         descend(level - 1, child, query, enter, visit);
@@ -66,7 +72,7 @@ class BoxTree {
     }
   }
 
-  Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();  // heights stay as they are
   std::vector<std::uint32_t> order_;
   std::vector<std::vector<Node>> levels_;  // the last one has one node
 };

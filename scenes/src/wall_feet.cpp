@@ -26,6 +26,9 @@ namespace {
 /// How much higher than a foot, m, a wall must be.
 constexpr double minRise = 0.05;
 
+/// A wall that is taller than this, m, is no foot, wherever it stands.
+constexpr double maxFootHeight = 1.0;
+
 /// What is steeper than 45° carries no vehicle.
 constexpr double minGroundNormalUp = 0.707;
 
@@ -100,15 +103,13 @@ class WallTree {
   [[nodiscard]] std::optional<Surroundings> around(const Vector2& place, const Heights& heights) {
     Surroundings result;
     const auto enter = [&](double distance2, double foot, double top) {
-      if (distance2 > footReach * footReach || top < heights.minTop || foot > heights.maxFoot ||
-          visits_ == 0) {
-        return false;
-      }
+      if (visits_ == 0) return false;
       --visits_;
       return distance2 < result.squaredDistance || foot < result.foot || top > result.top;
     };
-    const Eigen::Vector3d point(place.x(), place.y(), 0.0);
-    tree_.search({point, point}, enter, [&](std::uint32_t i) {
+    const Box tallEnough{.low = {place.x(), place.y(), heights.minTop},
+                         .high = {place.x(), place.y(), heights.maxFoot}};
+    tree_.search(tallEnough, footReach, enter, [&](std::uint32_t i) {
       const Wall& wall = walls_[i];
       const Vector2 nearest = nearestOf(wall.corners, place);
       const double distance2 = (nearest - place).squaredNorm();
@@ -192,7 +193,7 @@ std::vector<WallFoot> lowWalls(WallTree& tree, const std::vector<Wall>& walls) {
   for (const Wall& wall : walls) highest = std::max(highest, wall.top);
   std::vector<WallFoot> feet;
   for (const Wall& wall : walls) {
-    if (wall.top + minRise > highest) continue;
+    if (wall.top - wall.foot > maxFootHeight || wall.top + minRise > highest) continue;
     const auto candidate = candidateOf(tree, wall.triangle, wall.corners, wall.top);
     if (candidate) feet.push_back(candidate->foot);
   }
@@ -251,13 +252,12 @@ std::vector<bool> onGround(const std::vector<Probe>& probes, const std::vector<T
   const BoxTree tree(boxes);
   std::size_t visits = maxVisits * (probes.size() + flat.size());
   for (const Triangle& triangle : flat) {
-    const Box box = boxOf(triangle);
-    const auto enter = [&](double distance2, double low, double high) {
-      if (distance2 > 0.0 || low > box.high.z() || high < box.low.z() || visits == 0) return false;
+    const auto enter = [&](double /*distance2*/, double /*low*/, double /*high*/) {
+      if (visits == 0) return false;
       --visits;
       return true;
     };
-    tree.search(box, enter, [&](std::uint32_t i) {
+    tree.search(boxOf(triangle), 0.0, enter, [&](std::uint32_t i) {
       const Probe& probe = probes[i];
       if (found[i] || !covers(triangle, probe.place.head<2>())) return;
       const Eigen::Vector3d normal = upwardNormal(triangle);
