@@ -42,8 +42,7 @@ constexpr double beyondReach = 0.02;
 /// A place closer to a wall than this, m, lies on neither of its sides.
 constexpr double onWall = 1e-3;
 
-/// Ground that is not found after leaving the reach of so many walls is in a gap that no vehicle
-/// fits in.
+/// Where the reach of so many walls, one after the other, does not end, all is taken for ground.
 constexpr int maxWallsLeft = 4;
 
 /// Steps of a search, on average for each triangle: bounds the time that meshes take whose

@@ -218,6 +218,40 @@ TEST_P(Profiles, WheelsClimbIt) {
   EXPECT_GT(onWall, 0U);
 }
 
+/// What of a car's contacts is kept, if its front is at the face of a wall.
+Contacts atTheFace(const WallProfile& profile, double fineness) {
+  const Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();
+  const ProfileScene profileScene(profile, fineness, origin);
+  OdeWorld ode;
+  const OdeMesh mesh(nullptr, profileScene.scene);
+  Responder responder(ode.world);
+  responder.addBarrier(mesh.geom);
+  const BoxOnWheel car(ode.world, 0.05);
+  car.addTo(responder);
+  car.place(Eigen::Isometry3d(Eigen::Translation3d(profile.faceX + 0.01, 0.0, 0.0)), -1.0);
+  return collide(responder, car.box, mesh.geom, profileScene.pieceOf);
+}
+
+TEST_P(Profiles, TheFrontOfASillAboveTheBandIsOdes) {
+  const Contacts contacts = atTheFace(
+      {.name = "sill",
+       .points = {{0.0, 0.0}, {0.0, 0.8}, {-0.3, 0.8}, {-0.3, 0.85}, {0.0, 0.85}, {0.0, 3.0}}},
+      GetParam());
+  const auto front = [](const std::vector<std::size_t>& pieces) {
+    return countUpTo(3, pieces) - countUpTo(2, pieces);
+  };
+  EXPECT_GT(front(contacts.found), 0U);
+  EXPECT_EQ(front(contacts.kept), front(contacts.found));
+}
+
+// A kerb in two steps.
+TEST_P(Profiles, TheFootOfAWallBelowTheBandIsOdes) {
+  const Contacts contacts = atTheFace(
+      {.name = "steps", .points = {{-0.1, 0.0}, {-0.1, 0.1}, {0.0, 0.1}, {0.0, 0.25}}}, GetParam());
+  EXPECT_FALSE(contacts.found.empty());
+  EXPECT_EQ(contacts.kept, contacts.found);
+}
+
 INSTANTIATE_TEST_SUITE_P(Fineness, Profiles, ::testing::Values(coarse, 0.5, 0.15));
 
 }  // namespace
