@@ -161,6 +161,11 @@ WallPart Barrier::partAt(int triangle, const Eigen::Vector3d& normal) const {
           .top = report_.highestTop};
 }
 
+std::optional<WallFoot> Barrier::footAt(int triangle) const {
+  if (!mesh_ || dGeomGetClass(geom_) != dTriMeshClass) return std::nullopt;
+  return mesh_->footOf(triangle);
+}
+
 bool Barrier::hasWallsOnly() const {
   if (primitive_) return !primitive_->isPost();
   return dGeomGetClass(geom_) == dTriMeshClass && mesh_->hasWallsOnly();

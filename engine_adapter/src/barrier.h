@@ -63,6 +63,8 @@ class Barrier {
   /// What a contact of geom() with something else is: the number of the triangle or −1, and the
   /// contact's normal.
   [[nodiscard]] WallPart partAt(int triangle, const Eigen::Vector3d& normal) const;
+  /// The walls at whose foot such a triangle stands, if any.
+  [[nodiscard]] std::optional<WallFoot> footAt(int triangle) const;
   /// Every contact of geom() is one with a wall's face.
   [[nodiscard]] bool hasWallsOnly() const;
   /// The highest foot and the lowest top of all walls, m.

@@ -42,12 +42,28 @@ Scene sceneOf(dGeomID trimesh, const std::string& name) {
   return scene;
 }
 
+/// What is known of a triangle, if anything.
+template <typename Known>
+const Known* find(const std::vector<Known>& sorted, std::size_t triangle) {
+  const auto found = std::lower_bound(
+      sorted.begin(), sorted.end(), triangle,
+      [](const Known& each, std::size_t wanted) { return each.triangle < wanted; });
+  return found != sorted.end() && found->triangle == triangle ? &*found : nullptr;
+}
+
 }  // namespace
 
 BarrierMesh::BarrierMesh(const Scene& scene, const BarrierOptions& options, std::string name,
                          Query query)
     : name_(std::move(name)), ownsGeom_(true) {
-  keepWalls(scene, selectWalls(scene, options.walls));
+  const Walls selected = selectWalls(scene, options.walls);
+  keepWalls(scene, selected);
+  // The triangles of the geom are the walls.
+  std::size_t wall = 0;
+  for (const WallFoot& foot : wallFeet(selected.walls)) {
+    while (selected.walls[wall].triangle != foot.triangle) ++wall;
+    keepFoot(wall, foot);
+  }
   buildMesh(query);
   geom_ = dCreateTriMesh(options.space, data_, nullptr, nullptr, nullptr);
   const Eigen::Vector3d& origin = walls_.origin();
@@ -72,6 +88,9 @@ BarrierMesh::BarrierMesh(dGeomID trimesh, const BarrierOptions& options, std::st
   keepParts(wallParts(scene, selected));
   dropOutOfReach(scene, options.walls, selected);
   keepWalls(scene, selected);
+  for (const WallFoot& foot : wallFeet(scene, selected.walls)) {
+    keepFoot(static_cast<std::size_t>(foot.triangle), foot);
+  }
   buildMesh(query);
 }
 
@@ -90,6 +109,12 @@ void BarrierMesh::keepParts(const std::vector<WallPart>& parts) {
                       .kind = parts[i].kind});
   }
   parts_.shrink_to_fit();
+}
+
+void BarrierMesh::keepFoot(std::size_t triangle, const WallFoot& foot) {
+  feet_.push_back({.triangle = static_cast<std::uint32_t>(triangle),
+                   .foot = roundedDown(foot.foot),
+                   .top = roundedUp(foot.top)});
 }
 
 void BarrierMesh::keepWalls(const Scene& scene, const Walls& selected) {
@@ -119,6 +144,7 @@ void BarrierMesh::keepWalls(const Scene& scene, const Walls& selected) {
 }
 
 void BarrierMesh::buildMesh(Query query) {
+  feet_.shrink_to_fit();
   // Single precision rounds by 6e-8 of the largest coordinate, in the tree and in the box.
   margin_ = 1e-4 + 1e-6 * (high_ - low_).norm();
 
@@ -141,7 +167,7 @@ void BarrierMesh::buildMesh(Query query) {
 
 std::size_t BarrierMesh::memory() const {
   return walls_.memory() + plan_.memory() + parts_.capacity() * sizeof(Part) +
-         (walls_.size() - 1) * treeNodeSize;
+         feet_.capacity() * sizeof(Foot) + (walls_.size() - 1) * treeNodeSize;
 }
 
 WallPart BarrierMesh::partOf(int triangle) const {
@@ -149,13 +175,19 @@ WallPart BarrierMesh::partOf(int triangle) const {
   if (hasWallsOnly()) {
     return {.kind = WallPart::Kind::face, .foot = walls_.foot(index), .top = walls_.top(index)};
   }
-  const auto part =
-      std::lower_bound(parts_.begin(), parts_.end(), index,
-                       [](const Part& each, std::size_t wanted) { return each.triangle < wanted; });
-  if (part == parts_.end() || part->triangle != index) return {};
+  const Part* part = find(parts_, index);
+  if (part == nullptr) return {};
   return {.kind = part->kind,
           .foot = static_cast<double>(part->foot),
           .top = static_cast<double>(part->top)};
+}
+
+std::optional<WallFoot> BarrierMesh::footOf(int triangle) const {
+  const Foot* foot = find(feet_, static_cast<std::size_t>(triangle));
+  if (foot == nullptr) return std::nullopt;
+  return WallFoot{.triangle = triangle,
+                  .foot = static_cast<double>(foot->foot),
+                  .top = static_cast<double>(foot->top)};
 }
 
 bool BarrierMesh::reaches(const Eigen::Vector3d& centre, double radius) const {

@@ -2,11 +2,13 @@
 
 #include <ode/ode.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bumper/engine_adapter/barrier.h"
 #include "bumper/scenes/scene.h"
+#include "bumper/scenes/wall_feet.h"
 #include "bumper/scenes/wall_parts.h"
 #include "bumper/scenes/wall_plan.h"
 #include "wall_table.h"
@@ -44,6 +46,8 @@ class BarrierMesh {
   }
   /// What a triangle of geom() is to the walls; geom() must be a trimesh.
   [[nodiscard]] WallPart partOf(int triangle) const;
+  /// The walls that a triangle of geom() stands before, at their foot, if any; likewise.
+  [[nodiscard]] std::optional<WallFoot> footOf(int triangle) const;
   [[nodiscard]] bool hasWallsOnly() const { return parts_.empty() && !solid_; }
   /// The walls enclose a solid, whose outside is what their normals say.
   [[nodiscard]] bool isSolid() const { return solid_; }
@@ -75,7 +79,15 @@ class BarrierMesh {
     WallPart::Kind kind;
   };
 
+  // One that is the foot of walls, and their heights.
+  struct Foot {
+    std::uint32_t triangle;
+    float foot;
+    float top;
+  };
+
   void keepParts(const std::vector<WallPart>& parts);
+  void keepFoot(std::size_t triangle, const WallFoot& foot);
   void keepWalls(const Scene& scene, const Walls& selected);
   void buildMesh(Query query);
   [[nodiscard]] std::size_t memory() const;
@@ -86,6 +98,7 @@ class BarrierMesh {
   WallReport report_;
   std::vector<std::string> materials_;
   std::vector<Part> parts_;  // by triangle; empty: geom() holds walls only
+  std::vector<Foot> feet_;   // by triangle
   Eigen::Vector3d low_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d high_ = Eigen::Vector3d::Zero();
   double highestFoot_ = 0.0;

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "bumper/response/error.h"
-#include "ode_vectors.h"
 #include "responder_implementation.h"
 
 namespace bumper {
@@ -65,18 +64,6 @@ void warnOfStrangers(dBodyID body, std::span<const dBodyID> vehicle, const std::
                          "moves with the chassis as one, impulses will be wrong by its mass");
     }
   }
-}
-
-OwnedPair ordered(const Responder::Implementation& responder, dGeomID vehicleGeom,
-                  dGeomID barrierGeom) {
-  if (dGeomIsSpace(vehicleGeom) != 0) return {};
-  const dBodyID body = dGeomGetBody(vehicleGeom);
-  if (body == nullptr) return {};
-  const auto barrier = responder.barrierOfGeom.find(barrierGeom);
-  if (barrier == responder.barrierOfGeom.end()) return {};
-  const auto vehicle = responder.vehicleOfBody.find(body);
-  if (vehicle == responder.vehicleOfBody.end() || !vehicle->second->isUpright()) return {};
-  return {.vehicle = vehicle->second, .barrier = barrier->second};
 }
 
 void validateSettings(const ResponseSettings& settings, const ResponderOptions& usual) {
@@ -156,11 +143,6 @@ void requireUsable(const Responder::Implementation& responder, dGeomID geom) {
 }
 
 }  // namespace
-
-OwnedPair Responder::Implementation::pairOf(dGeomID a, dGeomID b) const {
-  const OwnedPair pair = ordered(*this, a, b);
-  return pair ? pair : ordered(*this, b, a);
-}
 
 Responder::Responder(dWorldID world, const ResponderOptions& options) {
   if (world == nullptr) throw Error("Responder: the world is null");
@@ -310,37 +292,6 @@ void Responder::removeVehicle(VehicleId vehicle) {
       implementation_->vehicles[static_cast<std::size_t>(vehicle.value)];
   place->guards.release();
   place.reset();
-}
-
-bool Responder::claims(dGeomID a, dGeomID b) const {
-  const OwnedPair pair = implementation_->pairOf(a, b);
-  // A mesh that holds ground too is sorted out contact by contact.
-  if (!pair || !pair.barrier->hasWallsOnly()) return false;
-  return pair.vehicle->query.allInBand(pair.vehicle->bodies.readPose(), pair.barrier->highestFoot(),
-                                       pair.barrier->lowestTop());
-}
-
-int Responder::keepUnclaimed(dGeomID a, dGeomID b, dContact* contacts, int count) const {
-  const OwnedPair pair = implementation_->pairOf(a, b);
-  if (!pair) return count;
-  const Barrier& barrier = *pair.barrier;
-  const bool isMesh = dGeomGetClass(barrier.geom()) == dTriMeshClass;
-  const VehiclePose state = pair.vehicle->bodies.readPose();
-  const auto isOurs = [&](const dContact& contact) {
-    const int triangle =
-        contact.geom.g1 == barrier.geom() ? contact.geom.side1 : contact.geom.side2;
-    const Eigen::Vector3d place = toVector(contact.geom.pos);
-    const WallQuery& query = pair.vehicle->query;
-    // ODE numbers no triangle where two trimeshes meet along their edges.
-    if (isMesh && triangle < 0) return query.isAboveBottom(state, place);
-    const WallPart part = barrier.partAt(triangle, toVector(contact.geom.normal));
-    if (part.kind == WallPart::Kind::none) return false;
-    if (!query.inBand(state, place, part.foot, part.top)) return false;
-    // A cap is the wall's for a vehicle that stands before the wall, and ground for the wheels of
-    // one that drives up to its height.
-    return part.kind == WallPart::Kind::face || query.isAboveBottom(state, place);
-  };
-  return static_cast<int>(std::remove_if(contacts, contacts + count, isOurs) - contacts);
 }
 
 Eigen::Vector3d Responder::velocity(VehicleId vehicle) const {

@@ -55,13 +55,6 @@ struct Vehicle {
   [[nodiscard]] bool isUpright() const { return uprightness(bodies.chassis()) >= minUprightness; }
 };
 
-/// A vehicle's geom and a barrier's.
-struct OwnedPair {
-  const Vehicle* vehicle = nullptr;
-  const Barrier* barrier = nullptr;
-  explicit operator bool() const { return vehicle != nullptr; }
-};
-
 struct JointGroupDeleter {
   void operator()(dJointGroupID group) const { dJointGroupDestroy(group); }
 };
@@ -91,9 +84,6 @@ struct Responder::Implementation {
   CollisionStep collision;
   std::vector<WallSegment> segments;
   std::vector<Vehicle*> active;  // a place for every vehicle
-
-  /// The pair in either order, if Bumper may own contacts of it.
-  [[nodiscard]] OwnedPair pairOf(dGeomID a, dGeomID b) const;
 
   /// What is known of the room around vehicles is no longer true.
   void forgetSurroundings();

@@ -161,6 +161,10 @@ bool WallQuery::isAboveBottom(const VehiclePose& state, const Eigen::Vector3d& p
   return state.up().dot(place - state.massCentre) >= low_;
 }
 
+bool WallQuery::isBelowTop(const VehiclePose& state, const Eigen::Vector3d& place) const {
+  return state.up().dot(place - state.massCentre) <= high_;
+}
+
 bool WallQuery::allInBand(const VehiclePose& state, double highestFoot, double lowestTop) const {
   const Eigen::Vector3d up = state.up();
   const double slack = radius_ * up.head<2>().norm();

@@ -86,6 +86,8 @@ class WallQuery {
                             double top) const;
   /// Whether a place of the world lies above the band's lower limit.
   [[nodiscard]] bool isAboveBottom(const VehiclePose& state, const Eigen::Vector3d& place) const;
+  /// Whether it lies below the band's upper limit.
+  [[nodiscard]] bool isBelowTop(const VehiclePose& state, const Eigen::Vector3d& place) const;
   /// The same as inBand() for every wall within the outline's reach that has its foot no higher and
   /// its top no lower than these; false if in doubt.
   [[nodiscard]] bool allInBand(const VehiclePose& state, double highestFoot,

@@ -1,8 +1,8 @@
 #include "bumper/scenes/wall_parts.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
-#include <map>
 
 #include "corners.h"
 #include "weld.h"
@@ -34,13 +34,14 @@ void include(WallPart& part, const WallPart& wall) {
 std::vector<WallPart> wallParts(const Scene& scene, const Walls& walls) {
   const std::vector<Corners> corners = weldedCorners(scene);
   std::vector<WallPart> parts(scene.triangles.size());
-  std::map<Corners, WallPart> faces;
+  CornersTable faces(walls.walls.size());
+  std::vector<std::size_t> faceOf;  // by number in that table: one of its walls
   std::vector<WallPart> upperEdge(scene.vertices.size());  // by corner
   for (const Wall& wall : walls.walls) {
     const WallPart face{.kind = WallPart::Kind::face, .foot = wall.foot, .top = wall.top};
     const Corners& own = corners[static_cast<std::size_t>(wall.triangle)];
     parts[static_cast<std::size_t>(wall.triangle)] = face;
-    faces.emplace(sorted(own), face);
+    if (faces.insert(sorted(own))) faceOf.push_back(static_cast<std::size_t>(wall.triangle));
     for (const std::uint32_t corner : own) {
       // A top may slope; its corners lie in the upper half all the same.
       if (scene.vertices[corner].z() > 0.5 * (wall.foot + wall.top)) {
@@ -50,9 +51,9 @@ std::vector<WallPart> wallParts(const Scene& scene, const Walls& walls) {
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (parts[i].kind == WallPart::Kind::face) continue;
-    const auto skin = faces.find(sorted(corners[i]));
-    if (skin != faces.end()) {
-      parts[i] = skin->second;
+    const std::uint32_t skin = faces.find(sorted(corners[i]));
+    if (skin != CornersTable::none) {
+      parts[i] = parts[faceOf[skin]];
       continue;
     }
     for (const std::uint32_t corner : corners[i]) {

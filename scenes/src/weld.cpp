@@ -34,6 +34,10 @@ std::size_t hash(const Cell& cell) {
   return static_cast<std::size_t>(value);
 }
 
+/// Triangles that follow one another have corners in common: where points are listed by triangle,
+/// the same one is often among so many before.
+constexpr std::uint32_t lookBack = 6;
+
 /// Hash table of points by cell: chains of indices.
 class PointTable {
  public:
@@ -87,12 +91,26 @@ std::uint32_t findNear(const PointTable& table, const Eigen::Vector3d& point) {
   return found;
 }
 
+/// The index of an equal point shortly before a point, or `none`.
+std::uint32_t findEqual(const std::vector<Eigen::Vector3d>& points, std::uint32_t index) {
+  const std::uint32_t first = index - std::min(index, lookBack);
+  for (std::uint32_t i = index; i > first; --i) {
+    if (points[i - 1] == points[index]) return i - 1;
+  }
+  return none;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> weld(const std::vector<Eigen::Vector3d>& points) {
   PointTable table(points);
   std::vector<std::uint32_t> representative(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) {
+    const std::uint32_t equal = findEqual(points, i);
+    if (equal != none) {
+      representative[i] = representative[equal];
+      continue;
+    }
     const std::uint32_t found = findNear(table, points[i]);
     if (found == none) table.insert(cellOf(points[i]), i);
     representative[i] = found == none ? i : found;

@@ -63,9 +63,11 @@ inline constexpr unsigned moved = 64;  ///< a vehicle was moved by other means t
 ///
 /// The responder borrows the world. It owns the contacts of a vehicle's bodies with walls at the
 /// heights of its band, as long as the vehicle stands upright, and answers them at the outline,
-/// which should therefore enclose the bodies' geoms. All other contacts stay ODE's. Each step:
-/// collide, add your own forces, step(h), step the world by the same h. A step() too many, or a
-/// world step of another size, is noticed by the bodies' motion and put right; see step_issue.
+/// which should therefore enclose the bodies' geoms. What stands before such a wall within half a
+/// metre of it, lower than the band's top and not a part of the ground, is the wall's for the
+/// chassis; wheels climb it as ODE has it. All other contacts stay ODE's. Each step: collide, add
+/// your own forces, step(h), step the world by the same h. A step() too many, or a world step of
+/// another size, is noticed by the bodies' motion and put right; see step_issue.
 ///
 /// An impact happens at its own time within a step, and its force pulse lasts until the same time
 /// of the next one. Meanwhile the body's velocity is not yet that after the impact: velocity() and
@@ -133,7 +135,8 @@ class Responder {
   [[nodiscard]] bool claims(dGeomID a, dGeomID b) const;
 
   /// Takes Bumper's contacts out of what dCollide(a, b, …) gave, keeps the others in their order in
-  /// front, and returns how many they are.
+  /// front, and returns how many they are. What a contact touches is said by its own geoms: a and b
+  /// may be spaces or geom transforms, in either order.
   int keepUnclaimed(dGeomID a, dGeomID b, dContact* contacts, int count) const;
 
   /// Finds the impacts of the coming step of `h` seconds and adds their forces to the bodies. The

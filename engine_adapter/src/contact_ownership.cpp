@@ -1,0 +1,175 @@
+// Who owns a contact, Bumper or ODE. The rule is in the README.
+
+#include <ode/ode.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <optional>
+
+#include "bumper/engine_adapter/responder.h"
+#include "ode_vectors.h"
+#include "responder_implementation.h"
+
+namespace bumper {
+
+namespace {
+
+/// A vehicle's geom against a barrier's, in either order.
+struct OwnedPair {
+  const Vehicle* vehicle = nullptr;
+  dBodyID body = nullptr;  // of the vehicle's geom
+  const Barrier* barrier = nullptr;
+  bool barrierFirst = false;
+  explicit operator bool() const { return vehicle != nullptr; }
+};
+
+OwnedPair ordered(const Responder::Implementation& responder, dGeomID vehicleGeom,
+                  dGeomID barrierGeom) {
+  if (vehicleGeom == nullptr || dGeomIsSpace(vehicleGeom) != 0) return {};
+  const dBodyID body = dGeomGetBody(vehicleGeom);
+  if (body == nullptr) return {};
+  const auto barrier = responder.barrierOfGeom.find(barrierGeom);
+  if (barrier == responder.barrierOfGeom.end()) return {};
+  const auto vehicle = responder.vehicleOfBody.find(body);
+  if (vehicle == responder.vehicleOfBody.end() || !vehicle->second->isUpright()) return {};
+  return {.vehicle = vehicle->second, .body = body, .barrier = barrier->second};
+}
+
+/// The pair, if Bumper may own contacts of it.
+OwnedPair pairOf(const Responder::Implementation& responder, dGeomID a, dGeomID b) {
+  if (const OwnedPair pair = ordered(responder, a, b)) return pair;
+  OwnedPair pair = ordered(responder, b, a);
+  pair.barrierFirst = true;
+  return pair;
+}
+
+// ODE calls geom transforms deprecated; applications have them all the same.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+
+/// Whether a geom is a transform around another, or around a transform around it.
+bool holds(dGeomID transform, dGeomID geom) {
+  while (transform != nullptr && dGeomGetClass(transform) == dGeomTransformClass) {
+    transform = dGeomTransformGetGeom(transform);
+    if (transform == geom) return true;
+  }
+  return false;
+}
+
+#pragma GCC diagnostic pop
+
+/// A contact of a geom transform is, by ODE's default, one of the geom that it holds, which has
+/// neither a body nor a space: the vehicle's or barrier's transform, or null.
+dGeomID transformAround(const Responder::Implementation& responder, dGeomID geom) {
+  for (const auto& [body, vehicle] : responder.vehicleOfBody) {
+    for (dGeomID own = dBodyGetFirstGeom(body); own != nullptr; own = dBodyGetNextGeom(own)) {
+      if (holds(own, geom)) return own;
+    }
+  }
+  for (const auto& [own, barrier] : responder.barrierOfGeom) {
+    if (holds(own, geom)) return own;
+  }
+  return nullptr;
+}
+
+/// Finds out what the contacts of one dCollide() are contacts of. Their own geoms say so: those
+/// that were collided may be spaces. The same geoms follow one another, and are looked up once.
+class ContactPairs {
+ public:
+  ContactPairs(const Responder::Implementation& responder, dGeomID a, dGeomID b)
+      : responder_(responder), a_(a), b_(b) {}
+
+  const OwnedPair& pairOf(const dContactGeom& contact) {
+    if (isKnown_ && contact.g1 == first_ && contact.g2 == second_) return pair_;
+    first_ = contact.g1;
+    second_ = contact.g2;
+    isKnown_ = true;
+    const bool swapped = first_ == b_ || second_ == a_;
+    pair_ = bumper::pairOf(responder_, carrierOf(first_, swapped ? b_ : a_),
+                           carrierOf(second_, swapped ? a_ : b_));
+    if (pair_) pose_ = pair_.vehicle->bodies.readPose();
+    return pair_;
+  }
+  /// Of the last pair's vehicle.
+  [[nodiscard]] const VehiclePose& pose() const { return pose_; }
+
+ private:
+  /// The geom that a contact's geom belongs to: `collided` if that is not to be seen.
+  [[nodiscard]] dGeomID carrierOf(dGeomID geom, dGeomID collided) const {
+    if (geom == nullptr) return collided;
+    if (geom == collided || dGeomGetBody(geom) != nullptr || dGeomGetSpace(geom) != nullptr ||
+        responder_.barrierOfGeom.contains(geom)) {
+      return geom;
+    }
+    const dGeomID transform = transformAround(responder_, geom);
+    return transform != nullptr ? transform : collided;
+  }
+
+  const Responder::Implementation& responder_;
+  dGeomID a_;
+  dGeomID b_;
+  bool isKnown_ = false;
+  dGeomID first_ = nullptr;
+  dGeomID second_ = nullptr;
+  OwnedPair pair_;
+  VehiclePose pose_;
+};
+
+struct Contact {
+  Eigen::Vector3d place;
+  Eigen::Vector3d normal;
+  int triangle;  // of the barrier's geom; −1 if it has none
+};
+
+/// Whether the contact is one with a wall that reaches into the vehicle's band.
+bool isWithWall(const OwnedPair& pair, const VehiclePose& pose, const Contact& contact) {
+  const WallQuery& query = pair.vehicle->query;
+  const WallPart part = pair.barrier->partAt(contact.triangle, contact.normal);
+  if (part.kind == WallPart::Kind::none) return false;
+  if (!query.inBand(pose, contact.place, part.foot, part.top)) return false;
+  // A cap is the wall's for a vehicle that stands before the wall, and ground for the wheels of
+  // one that drives up to its height.
+  return part.kind == WallPart::Kind::face || query.isAboveBottom(pose, contact.place);
+}
+
+/// Whether it is one of the chassis with the foot of such a wall: Bumper answers the wall, and the
+/// foot would answer it once more.
+bool isWithFoot(const OwnedPair& pair, const VehiclePose& pose, const Contact& contact) {
+  if (pair.body != pair.vehicle->bodies.chassis()) return false;
+  const std::optional<WallFoot> foot = pair.barrier->footAt(contact.triangle);
+  const WallQuery& query = pair.vehicle->query;
+  return foot && query.isBelowTop(pose, contact.place) &&
+         query.inBand(pose, contact.place, foot->foot, foot->top);
+}
+
+bool isOurs(const OwnedPair& pair, const VehiclePose& pose, const dContactGeom& geom) {
+  const Contact contact{.place = toVector(geom.pos),
+                        .normal = toVector(geom.normal),
+                        .triangle = pair.barrierFirst ? geom.side1 : geom.side2};
+  // ODE numbers no triangle where two trimeshes meet along their edges.
+  if (contact.triangle < 0 && dGeomGetClass(pair.barrier->geom()) == dTriMeshClass) {
+    return pair.vehicle->query.isAboveBottom(pose, contact.place);
+  }
+  return isWithWall(pair, pose, contact) || isWithFoot(pair, pose, contact);
+}
+
+}  // namespace
+
+bool Responder::claims(dGeomID a, dGeomID b) const {
+  const OwnedPair pair = pairOf(*implementation_, a, b);
+  // A mesh that holds ground too is sorted out contact by contact.
+  if (!pair || !pair.barrier->hasWallsOnly()) return false;
+  return pair.vehicle->query.allInBand(pair.vehicle->bodies.readPose(), pair.barrier->highestFoot(),
+                                       pair.barrier->lowestTop());
+}
+
+int Responder::keepUnclaimed(dGeomID a, dGeomID b, dContact* contacts, int count) const {
+  ContactPairs pairs(*implementation_, a, b);
+  const auto isBumpers = [&](const dContact& contact) {
+    const OwnedPair& pair = pairs.pairOf(contact.geom);
+    return pair && isOurs(pair, pairs.pose(), contact.geom);
+  };
+  return static_cast<int>(std::remove_if(contacts, contacts + count, isBumpers) - contacts);
+}
+
+}  // namespace bumper

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "bumper/scenes/scene.h"
+#include "bumper/scenes/walls.h"
+
+namespace bumper {
+
+/// How far the foot of a wall reaches, m: in front of the wall as seen from above, on either side,
+/// and below it.
+inline constexpr double footReach = 0.5;
+
+/// A triangle that stands before a taller wall, no further away than footReach: a plinth, the toe
+/// of a concrete barrier, a kerb at its base, a narrow ledge, rocks. Ground is none: a surface no
+/// steeper than 45° that goes on beyond that distance. Nor is a wall of more than 1 m.
+struct WallFoot {
+  int triangle = -1;  ///< in the scene
+  /// Lowest and highest point, m, of the walls that it stands before.
+  double foot = 0.0;
+  double top = 0.0;
+};
+
+/// The feet among walls, in their order.
+std::vector<WallFoot> wallFeet(const std::vector<Wall>& walls);
+
+/// The feet among all triangles of the scene that the walls were selected from, in its order.
+std::vector<WallFoot> wallFeet(const Scene& scene, const std::vector<Wall>& walls);
+
+}  // namespace bumper

@@ -1,0 +1,105 @@
+#include "box_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace bumper {
+
+namespace {
+
+/// Single precision rounds by no more than this part of a number.
+constexpr double rounding = 1.2e-7;
+
+constexpr float infinite = std::numeric_limits<float>::infinity();
+
+/// The bits of a number with a gap after each.
+std::uint32_t spread(std::uint32_t bits) {
+  bits = (bits | bits << 8U) & 0x00FF00FFU;
+  bits = (bits | bits << 4U) & 0x0F0F0F0FU;
+  bits = (bits | bits << 2U) & 0x33333333U;
+  return (bits | bits << 1U) & 0x55555555U;
+}
+
+/// Along a curve that visits the quarters of a square one after another (Morton's).
+std::vector<std::uint32_t> alongCurve(const std::vector<Box>& boxes, const Eigen::Vector2d& low,
+                                      double size) {
+  const double scale = size > 0.0 ? 65535.0 / size : 0.0;
+  std::vector<std::uint32_t> keys(boxes.size());
+  std::vector<std::uint32_t> order(boxes.size());
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+    const Eigen::Vector2d place = scale * (0.5 * (boxes[i].low + boxes[i].high).head<2>() - low);
+    keys[i] = spread(static_cast<std::uint32_t>(place.x())) |
+              spread(static_cast<std::uint32_t>(place.y())) << 1U;
+    order[i] = i;
+  }
+  // What is in the same place stays in the order given, which in most scenes is a good one.
+  constexpr unsigned digit = 11;
+  std::vector<std::uint32_t> sorted(order.size());
+  for (unsigned shift = 0; shift < 32; shift += digit) {
+    std::array<std::uint32_t, (1U << digit) + 1> begins{};
+    const auto digitOf = [&](std::uint32_t i) { return keys[i] >> shift & ((1U << digit) - 1U); };
+    for (const std::uint32_t i : order) ++begins[digitOf(i) + 1];
+    for (std::size_t k = 1; k < begins.size(); ++k) begins[k] += begins[k - 1];
+    for (const std::uint32_t i : order) sorted[begins[digitOf(i)]++] = i;
+    order.swap(sorted);
+  }
+  return order;
+}
+
+}  // namespace
+
+BoxTree::Node::Node() {
+  for (Four* low : {&lowX, &lowY, &lowZ}) low->setConstant(infinite);
+  for (Four* high : {&highX, &highY, &highZ}) high->setConstant(-infinite);
+}
+
+void BoxTree::Node::put(std::size_t child, const Eigen::Array3f& low, const Eigen::Array3f& high) {
+  const auto k = static_cast<Eigen::Index>(child);
+  lowX[k] = low.x();
+  lowY[k] = low.y();
+  lowZ[k] = low.z();
+  highX[k] = high.x();
+  highY[k] = high.y();
+  highZ[k] = high.z();
+}
+
+BoxTree::BoxTree(const std::vector<Box>& boxes) {
+  if (boxes.empty()) return;
+  Eigen::Vector3d low = boxes.front().low;
+  Eigen::Vector3d high = boxes.front().high;
+  for (const Box& box : boxes) {
+    low = low.cwiseMin(box.low);
+    high = high.cwiseMax(box.high);
+  }
+  const double size = (high - low).head<2>().maxCoeff();
+  origin_.head<2>() = 0.5 * (low + high).head<2>();
+  // For what both the box and that which it is compared with lose.
+  const double around = rounding * size + 1e-9;
+  const double aside = rounding * std::max(std::abs(low.z()), std::abs(high.z())) + 1e-9;
+  const Eigen::Vector3d slack(around, around, aside);
+  order_ = alongCurve(boxes, low.head<2>(), size);
+
+  std::vector<Node> level((boxes.size() + arity - 1) / arity);
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    const Box& box = boxes[order_[i]];
+    level[i / arity].put(i % arity, (box.low - origin_ - slack).cast<float>(),
+                         (box.high - origin_ + slack).cast<float>());
+  }
+  levels_.push_back(std::move(level));
+  while (levels_.back().size() > 1) {
+    const std::vector<Node>& below = levels_.back();
+    std::vector<Node> above((below.size() + arity - 1) / arity);
+    for (std::size_t i = 0; i < below.size(); ++i) {
+      const Node& node = below[i];
+      above[i / arity].put(i % arity,
+                           {node.lowX.minCoeff(), node.lowY.minCoeff(), node.lowZ.minCoeff()},
+                           {node.highX.maxCoeff(), node.highY.maxCoeff(), node.highZ.maxCoeff()});
+    }
+    levels_.push_back(std::move(above));
+  }
+}
+
+}  // namespace bumper

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace bumper {
+
+/// An upright box, m.
+struct Box {
+  Eigen::Vector3d low;
+  Eigen::Vector3d high;
+};
+
+/// Boxes under boxes around four of them each, and so on: which of them are near another? In single
+/// precision, and never too few.
+class BoxTree {
+ public:
+  explicit BoxTree(const std::vector<Box>& boxes);
+
+  /// Calls `visit` with the number of each box that is no further than `reach`, m, from `other` in
+  /// plan, and overlaps it in height, if `enter(squared distance in plan, low, high)`, the last two
+  /// its heights, is true of it and of the boxes around it.
+  template <typename Enter, typename Visit>
+  void search(const Box& other, double reach, const Enter& enter, const Visit& visit) const {
+    if (order_.empty()) return;
+    const Query query{.low = (other.low - origin_).cast<float>(),
+                      .high = (other.high - origin_).cast<float>(),
+                      .reach2 = static_cast<float>(reach * reach)};
+    descend(levels_.size() - 1, 0, query, enter, visit);
+  }
+
+ private:
+  static constexpr std::size_t arity = 4;
+  using Four = Eigen::Array4f;
+
+  struct Query {
+    Eigen::Vector3f low;
+    Eigen::Vector3f high;
+    float reach2;
+  };
+
+  /// The boxes of four children; unused ones are infinitely far away. Side by side, so that one
+  /// instruction does for all four.
+  struct Node {
+    Node();
+    void put(std::size_t child, const Eigen::Array3f& low, const Eigen::Array3f& high);
+
+    Four lowX, lowY, lowZ, highX, highY, highZ;
+  };
+
+  template <typename Enter, typename Visit>
+  void descend(std::size_t level, std::size_t number, const Query& query, const Enter& enter,
+               const Visit& visit) const {
+    const Node& node = levels_[level][number];
+    const Four x = (node.lowX - query.high.x()).max(query.low.x() - node.highX).max(0.0F);
+    const Four y = (node.lowY - query.high.y()).max(query.low.y() - node.highY).max(0.0F);
+    const Four distance2 = x * x + y * y;
+    const Four excess = (distance2 - query.reach2)
+                            .max(node.lowZ - query.high.z())
+                            .max(query.low.z() - node.highZ);
+    if (excess.minCoeff() > 0.0F) return;
+    for (Eigen::Index k = 0; k < 4; ++k) {
+      if (excess[k] > 0.0F || !enter(distance2[k], node.lowZ[k], node.highZ[k])) continue;
+      const std::size_t child = arity * number + static_cast<std::size_t>(k);
+      if (level > 0) {
+        descend(level - 1, child, query, enter, visit);
+      } else {
+        visit(order_[child]);
+      }
+    }
+  }
+
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();  // heights stay as they are
+  std::vector<std::uint32_t> order_;
+  std::vector<std::vector<Node>> levels_;  // the last one has one node
+};
+
+}  // namespace bumper
