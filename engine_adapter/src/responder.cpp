@@ -261,7 +261,7 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
   self.vehicles.push_back(std::move(vehicle));
   if (!self.clock) self.clock.emplace(self.world);
   // So that step() need not allocate when the first vehicle hits the first wall.
-  self.events.reserve(CollisionStep::maxImpacts + 8 * self.vehicles.size());
+  self.events.reserve(CollisionStep::maxImpacts + 16 * self.vehicles.size());
   self.segments.reserve(128);
   self.active.resize(self.vehicles.size());
   return {id};

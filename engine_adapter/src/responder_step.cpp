@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "ode_vectors.h"
 #include "pulse_delivery.h"
@@ -222,7 +223,6 @@ void Responder::Implementation::reportLoads(Vehicle& vehicle, const VehicleState
     if (!isImpact && !begins) continue;
     ImpactEvent event = eventAt(vehicle, barrier, load.wall, load.contact, load.normal);
     event.time = time;
-    event.phase = isImpact ? EventPhase::impact : EventPhase::contact_begin;
     event.arm = (state.axes.transpose() * load.arm).head<2>();
     event.approachSpeed = -load.velocity.dot(load.normal);
     event.impulseNormal = share.impulseNormal;
@@ -238,7 +238,11 @@ void Responder::Implementation::reportLoads(Vehicle& vehicle, const VehicleState
         (state.axes.transpose() * (state.velocity - impulse / state.mass)).head<2>().norm();
     event.energyLost = share.energyLost;
     event.regime = Regime::sticking;
-    events.push_back(event);
+    for (const auto& [is, phase] : {std::pair(isImpact, EventPhase::impact),
+                                    std::pair(begins, EventPhase::contact_begin)}) {
+      event.phase = phase;
+      if (is) events.push_back(event);
+    }
   }
   vehicle.guards.forget();
 }

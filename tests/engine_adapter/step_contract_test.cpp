@@ -151,6 +151,67 @@ TEST(StepContract, ATeleportDropsWhatIsPending) {
   EXPECT_EQ(run.car.velocity(), Eigen::Vector3d(5.0, 0.0, 0.0));
 }
 
+// Faster or slower along the same way it is no world step of another size.
+TEST(StepContract, AVelocityThatIsScaledDropsWhatIsPending) {
+  for (const double factor : {0.5, 0.9, 0.999, 1.001, 1.5, 4.0}) {
+    Approach run;
+    while (run.responder.step(h).empty()) dWorldQuickStep(run.ode.world, h);
+    dWorldQuickStep(run.ode.world, h);
+    const Eigen::Vector3d scaled = factor * run.car.velocity();
+    run.car.move(scaled, run.car.angularVelocity());
+    run.responder.step(h);
+    EXPECT_EQ(run.responder.issues(run.vehicle), step_issue::moved) << factor;
+  }
+}
+
+// A shortcut of games: one step() for several steps of the world. The force acts in the first of
+// them; the rest of the impulse follows.
+TEST(StepContract, SeveralWorldStepsForOneLoseNothing) {
+  for (const int parts : {2, 3, 10}) {
+    Approach run;
+    Eigen::Vector3d promised = Eigen::Vector3d::Zero();
+    const auto stepWorld = [&] {
+      for (int k = 0; k < parts; ++k) dWorldQuickStep(run.ode.world, h / parts);
+    };
+    while (promised.isZero()) {
+      for (const ImpactEvent& event : run.responder.step(h)) promised = event.velocityAfter;
+      stepWorld();
+    }
+    run.responder.step(h);
+    EXPECT_EQ(run.responder.issues(run.vehicle), step_issue::other_step_size) << parts;
+    dWorldQuickStep(run.ode.world, h);
+    EXPECT_LE((run.responder.velocity(run.vehicle) - promised).norm(), 1e-9) << parts;
+  }
+}
+
+TEST(StepContract, TimeGoesOnForAVehicleAtRest) {
+  for (const double depth : {-0.002, 0.0, 5e-5, 0.02}) {
+    Approach run;
+    run.car.place({0.0, 0.9 - depth, 0.55}, Eigen::Matrix3d::Identity());
+    run.car.move(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+    for (int i = 0; i < 200; ++i) {
+      run.responder.step(h);
+      EXPECT_EQ(run.responder.issues(), step_issue::none) << depth << ' ' << i;
+      dWorldQuickStep(run.ode.world, h);
+    }
+    EXPECT_NEAR(run.responder.time(), 200 * h, 1e-12) << depth;
+  }
+}
+
+// Pushed, held, and let go: at rest exactly, then.
+TEST(StepContract, TimeGoesOnAfterAPushEnds) {
+  Approach run;
+  run.car.place({0.0, 0.9 + 0.01, 0.55}, Eigen::Matrix3d::Identity());
+  run.car.move({0.0, -1.0, 0.0}, Eigen::Vector3d::Zero());
+  for (int i = 0; i < 600; ++i) {
+    if (i < 200) dBodyAddForce(run.car.body, 0.0, -6000.0, 0.0);
+    run.responder.step(h);
+    EXPECT_EQ(run.responder.issues(), step_issue::none) << i;
+    dWorldQuickStep(run.ode.world, h);
+  }
+  EXPECT_NEAR(run.responder.time(), 600 * h, 1e-12);
+}
+
 // Put 30 m on in the direction in which it goes it looks as after a world step of two seconds.
 TEST(StepContract, ATeleportAlongTheWayIsNoLongStep) {
   Approach run;
