@@ -46,12 +46,11 @@ Scene sceneOf(dGeomID trimesh, const std::string& name) {
 
 BarrierMesh::BarrierMesh(const Scene& scene, const BarrierOptions& options, std::string name,
                          Query query)
-    : name_(std::move(name)), ownsGeom_(true) {
+    : name_(std::move(name)) {
   keepWalls(scene, selectWalls(scene, options.walls));
   buildMesh(query);
-  geom_ = dCreateTriMesh(options.space, data_, nullptr, nullptr, nullptr);
-  const Eigen::Vector3d& origin = walls_.origin();
-  dGeomSetPosition(geom_, origin.x(), origin.y(), origin.z());
+  lent_.emplace(options.space, data_, walls_.origin(), 0.5 * (low_ + high_));
+  geom_ = lent_->address();
 }
 
 BarrierMesh::BarrierMesh(const Scene& scene, dGeomID geom, const BarrierOptions& options,
@@ -76,7 +75,7 @@ BarrierMesh::BarrierMesh(dGeomID trimesh, const BarrierOptions& options, std::st
 }
 
 BarrierMesh::~BarrierMesh() {
-  if (ownsGeom_) dGeomDestroy(geom_);
+  lent_.reset();
   dGeomDestroy(queryGeom_);
   dGeomTriMeshDataDestroy(data_);
 }
