@@ -11,9 +11,10 @@ namespace bumper {
 ///
 /// ODE tells nobody that a geom is gone, but it takes a geom that is destroyed off its body. So a
 /// second geom goes into the same space, a sphere without size on a body that only this object
-/// knows: a body that has lost its geom has lost it with the space. The sphere is disabled and has
-/// neither category nor collide bits, so no space hands it to a near callback; it lies within the
-/// mesh's bounding box, so no space has to grow for it.
+/// knows: a body that has lost its geom has lost it with the space. (A geom class of Bumper's own,
+/// with a destructor, would be one of the four that a program can have, and end with dCloseODE().)
+/// The sphere is disabled and has neither category nor collide bits, so no space hands it to a near
+/// callback; it lies within the mesh's bounding box, so no space has to grow for it.
 class LentGeom {
  public:
   /// `space` may be null; then nothing is watched, and the geom is taken to exist. `middle`: of the
