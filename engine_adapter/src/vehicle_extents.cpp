@@ -1,7 +1,6 @@
 #include "vehicle_extents.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -173,7 +172,7 @@ class Measurement {
     if (dGeomTriMeshGetTriMeshDataID(trimesh) == nullptr) return;
     ConvexShape triangle{.corners = std::vector<Eigen::Vector3d>(3)};
     for (int i = 0; i < dGeomTriMeshGetTriangleCount(trimesh); ++i) {
-      std::array<dVector3, 3> corners;
+      dVector3 corners[3];
       dGeomTriMeshGetTriangle(trimesh, i, &corners[0], &corners[1], &corners[2]);
       for (std::size_t k = 0; k < 3; ++k) triangle.corners[k] = frame * toVector(corners[k]);
       add(triangle);
