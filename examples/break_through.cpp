@@ -71,17 +71,18 @@ Recording drive(dWorldID world, const Scene& scene) {
   Recording recording;
   YawPlaneCar* const cars[] = {&straight, &slanting};
   const char* const names[] = {"straight", "slanting"};
+  VehicleId vehicles[2];
   for (int i = 0; i < 2; ++i) {
-    responder.addVehicle(cars[i]->body(), cars[i]->design().body, {.name = names[i]});
+    vehicles[i] = responder.addVehicle(cars[i]->body(), cars[i]->design().body, {.name = names[i]});
     recording.addPose(recording.addVehicle(names[i], cars[i]->design().body),
-                      poseOf(*cars[i], 0.0));
+                      poseOf(responder, vehicles[i]));
   }
   for (int i = 0; i < steps; ++i) {
     for (YawPlaneCar* car : cars) car->addTyreForces();
     record(responder.step(step), recording);
     dWorldQuickStep(world, step);
     for (std::size_t k = 0; k < 2; ++k) {
-      recording.addPose(k, poseOf(*cars[k], responder.time()));
+      recording.addPose(k, poseOf(responder, vehicles[k]));
     }
   }
   return recording;

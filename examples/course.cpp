@@ -57,17 +57,17 @@ Recording driveLap(dWorldID world, const Scene& scene) {
   PathFollower driver(swervingLine(), speed);
   Responder responder(world);
   responder.addBarrier(scene);
-  responder.addVehicle(car.body(), car.design().body, {.name = "car"});
+  const VehicleId vehicle = responder.addVehicle(car.body(), car.design().body, {.name = "car"});
 
   Recording recording;
   const std::size_t recorded = recording.addVehicle("car", car.design().body);
-  recording.addPose(recorded, poseOf(car, 0.0));
+  recording.addPose(recorded, poseOf(responder, vehicle));
   while (driver.laps() == 0 && responder.time() < longestLap) {
     driver.control(car);
     car.addTyreForces();
     record(responder.step(step), recording);
     dWorldQuickStep(world, step);
-    recording.addPose(recorded, poseOf(car, responder.time()));
+    recording.addPose(recorded, poseOf(responder, vehicle));
   }
   return recording;
 }

@@ -170,14 +170,14 @@ Recording run(const Order& order, const Scene& scene) {
       report.droppedOverhead + report.droppedBuried,
       report.droppedDuplicate + report.droppedRetriangulated);
 
-  responder.addVehicle(car.body(), design.body, {.name = "car"});
+  const VehicleId vehicle = responder.addVehicle(car.body(), design.body, {.name = "car"});
   RaySuspension suspension(car, world.mesh, gravity);
   const AngleCurve steering = steeringOf(order.steering);
 
   Recording recording;
   const std::size_t recorded =
       recording.addVehicle("car", design.body, meshSettings(order.meshes, "car", order.out));
-  recording.addPose(recorded, poseOf(car, 0.0));
+  recording.addPose(recorded, poseOf(responder, vehicle));
   const auto started = std::chrono::steady_clock::now();
   while (responder.time() < order.duration - 0.5 * order.step) {
     dSpaceCollide(world.space, &world, &World::nearCallback);
@@ -188,7 +188,7 @@ Recording run(const Order& order, const Scene& scene) {
     record(responder.step(order.step), recording);
     dWorldQuickStep(world.world, order.step);
     dJointGroupEmpty(world.joints);
-    recording.addPose(recorded, poseOf(car, responder.time()));
+    recording.addPose(recorded, poseOf(responder, vehicle));
     if ((responder.issues() & step_issue::tilted) != 0) {
       std::printf("the car leans beyond 30° after %.2f s, rolled over or in the air: that is all\n",
                   responder.time());

@@ -31,12 +31,12 @@ std::string placeOf(const Vector2& arm, const VehicleParameters& car) {
 
 }  // namespace
 
-RecordedPose poseOf(const YawPlaneCar& car, double time) {
-  return {.time = time,
-          .position = car.position(),
-          .orientation = Eigen::Quaterniond(car.axes()),
-          .velocity = car.velocity(),
-          .yawRate = car.yawRate()};
+RecordedPose poseOf(const Responder& responder, VehicleId vehicle) {
+  return {.time = responder.time(),
+          .position = responder.position(vehicle),
+          .orientation = responder.orientation(vehicle),
+          .velocity = responder.velocity(vehicle),
+          .yawRate = responder.yawRate(vehicle)};
 }
 
 void record(std::span<const ImpactEvent> events, Recording& recording) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "bumper/engine_adapter/responder.h"
 #include "bumper/render/recording.h"
 #include "bumper/render/run_description.h"
 #include "bumper/render/vehicle_meshes.h"
@@ -12,8 +13,8 @@
 
 namespace bumper::examples {
 
-/// The car's state for a recording.
-RecordedPose poseOf(const YawPlaneCar& car, double time);
+/// A vehicle's state for a recording, at the responder's time.
+RecordedPose poseOf(const Responder& responder, VehicleId vehicle);
 
 /// Keeps the impacts of a step; contacts that only lean or scrape are left out.
 void record(std::span<const ImpactEvent> events, Recording& recording);

@@ -19,15 +19,15 @@ void drive(dWorldID world, const Scene& scene, const ResponseSettings& settings,
   YawPlaneCar car(world, nullptr, {}, {0.0, 0.0, 0.55}, 0.0, sixtyMph);
   Responder responder(world, {.response = settings});
   responder.addBarrier(scene);
-  responder.addVehicle(car.body(), car.design().body, {.name = "car"});
+  const VehicleId vehicle = responder.addVehicle(car.body(), car.design().body, {.name = "car"});
   const std::size_t recorded = recording.addVehicle("car", car.design().body);
 
-  recording.addPose(recorded, poseOf(car, 0.0));
+  recording.addPose(recorded, poseOf(responder, vehicle));
   for (int i = 0; i < steps; ++i) {
     car.addTyreForces();
     record(responder.step(step), recording);
     dWorldQuickStep(world, step);
-    recording.addPose(recorded, poseOf(car, responder.time()));
+    recording.addPose(recorded, poseOf(responder, vehicle));
   }
 }
 

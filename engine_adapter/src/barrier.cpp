@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bumper/response/error.h"
+#include "geom_class.h"
 #include "ode_vectors.h"
 
 namespace bumper {
@@ -46,13 +47,13 @@ Barrier::Barrier(BarrierId id, const Scene& scene, const BarrierOptions& options
                  BarrierMesh::Query query, const ResponseSettings& usual)
     : id_(id), name_(std::move(name)), options_(options), hasScene_(true) {
   mesh_.emplace(scene, options, name_, query);
-  geom_ = mesh_->geom();
+  keepGeom(mesh_->geom());
   keepSettings(usual);
 }
 
 Barrier::Barrier(BarrierId id, dGeomID geom, const BarrierOptions& options, std::string name,
                  BarrierMesh::Query query, const ResponseSettings& usual)
-    : id_(id), name_(std::move(name)), options_(options), hasScene_(false), geom_(geom) {
+    : id_(id), name_(std::move(name)), options_(options), hasScene_(false) {
   switch (dGeomGetClass(geom)) {
     case dTriMeshClass:
       mesh_.emplace(geom, options, name_, query);
@@ -65,18 +66,31 @@ Barrier::Barrier(BarrierId id, dGeomID geom, const BarrierOptions& options, std:
       primitive_.emplace(geom, options.walls.maxNormalUp);
       break;
     default:
-      throw Error("addBarrier: the geom is of ODE class " + std::to_string(dGeomGetClass(geom)) +
+      throw Error(std::string("addBarrier: the geom is ") + classNameOf(geom) +
                   ": a trimesh, box, plane or cylinder can be a barrier as it is; of another the "
                   "shape must be given as a scene");
   }
+  keepGeom(geom);
   keepSettings(usual);
 }
 
 Barrier::Barrier(BarrierId id, dGeomID geom, const Scene& shape, const BarrierOptions& options,
                  std::string name, BarrierMesh::Query query, const ResponseSettings& usual)
-    : id_(id), name_(std::move(name)), options_(options), hasScene_(true), geom_(geom) {
+    : id_(id), name_(std::move(name)), options_(options), hasScene_(true) {
   mesh_.emplace(shape, geom, options, name_, query);
+  keepGeom(geom);
   keepSettings(usual);
+}
+
+void Barrier::keepGeom(dGeomID geom) {
+  geom_ = geom;
+  geomClass_ = dGeomGetClass(geom);
+  if (geomClass_ == dTriMeshClass) geomData_ = dGeomTriMeshGetTriMeshDataID(geom);
+}
+
+bool Barrier::isStill(dGeomID existing) const {
+  return existing == geom_ && dGeomGetClass(existing) == geomClass_ &&
+         (geomClass_ != dTriMeshClass || dGeomTriMeshGetTriMeshDataID(existing) == geomData_);
 }
 
 void Barrier::keepSettings(const ResponseSettings& usual) {
@@ -155,7 +169,7 @@ double Barrier::longestPenetrationTime() const {
 }
 
 WallPart Barrier::partAt(int triangle, const Eigen::Vector3d& normal) const {
-  if (mesh_ && dGeomGetClass(geom_) == dTriMeshClass) return mesh_->partOf(triangle);
+  if (mesh_ && geomClass_ == dTriMeshClass) return mesh_->partOf(triangle);
   return {.kind = std::abs(normal.z()) > steepNormal ? WallPart::Kind::cap : WallPart::Kind::face,
           .foot = report_.lowestFoot,
           .top = report_.highestTop};
@@ -168,7 +182,7 @@ std::optional<WallFoot> Barrier::footAt(int triangle) const {
 
 bool Barrier::hasWallsOnly() const {
   if (primitive_) return !primitive_->isPost();
-  return dGeomGetClass(geom_) == dTriMeshClass && mesh_->hasWallsOnly();
+  return geomClass_ == dTriMeshClass && mesh_->hasWallsOnly();
 }
 
 double Barrier::highestFoot() const { return mesh_ ? mesh_->highestFoot() : primitive_->foot(); }

@@ -28,7 +28,10 @@ class Barrier {
   [[nodiscard]] BarrierId id() const { return id_; }
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const BarrierOptions& options() const { return options_; }
+  /// May be gone.
   [[nodiscard]] dGeomID geom() const { return geom_; }
+  /// Whether a geom that has the address geom() is still that one, and not another in its place.
+  [[nodiscard]] bool isStill(dGeomID existing) const;
   /// Whether a scene says where its walls are, not the geom.
   [[nodiscard]] bool hasScene() const { return hasScene_; }
   [[nodiscard]] const WallReport& report() const { return report_; }
@@ -72,6 +75,7 @@ class Barrier {
   [[nodiscard]] double lowestTop() const;
 
  private:
+  void keepGeom(dGeomID geom);
   void keepSettings(const ResponseSettings& usual);
 
   BarrierId id_;
@@ -79,6 +83,8 @@ class Barrier {
   BarrierOptions options_;
   bool hasScene_;
   dGeomID geom_ = nullptr;
+  int geomClass_ = dTriMeshClass;
+  dTriMeshDataID geomData_ = nullptr;  // of a trimesh
   WallReport report_;
   std::optional<BarrierMesh> mesh_;
   std::optional<PrimitiveWall> primitive_;

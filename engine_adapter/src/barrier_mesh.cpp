@@ -55,7 +55,7 @@ const Known* find(const std::vector<Known>& sorted, std::size_t triangle) {
 
 BarrierMesh::BarrierMesh(const Scene& scene, const BarrierOptions& options, std::string name,
                          Query query)
-    : name_(std::move(name)), ownsGeom_(true) {
+    : name_(std::move(name)) {
   const Walls selected = selectWalls(scene, options.walls);
   keepWalls(scene, selected);
   // The triangles of the geom are the walls.
@@ -65,9 +65,8 @@ BarrierMesh::BarrierMesh(const Scene& scene, const BarrierOptions& options, std:
     keepFoot(wall, foot);
   }
   buildMesh(query);
-  geom_ = dCreateTriMesh(options.space, data_, nullptr, nullptr, nullptr);
-  const Eigen::Vector3d& origin = walls_.origin();
-  dGeomSetPosition(geom_, origin.x(), origin.y(), origin.z());
+  lent_.emplace(options.space, data_, walls_.origin(), 0.5 * (low_ + high_));
+  geom_ = lent_->address();
 }
 
 BarrierMesh::BarrierMesh(const Scene& scene, dGeomID geom, const BarrierOptions& options,
@@ -95,7 +94,7 @@ BarrierMesh::BarrierMesh(dGeomID trimesh, const BarrierOptions& options, std::st
 }
 
 BarrierMesh::~BarrierMesh() {
-  if (ownsGeom_) dGeomDestroy(geom_);
+  lent_.reset();
   dGeomDestroy(queryGeom_);
   dGeomTriMeshDataDestroy(data_);
 }

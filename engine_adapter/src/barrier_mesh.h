@@ -11,6 +11,7 @@
 #include "bumper/scenes/wall_feet.h"
 #include "bumper/scenes/wall_parts.h"
 #include "bumper/scenes/wall_plan.h"
+#include "lent_geom.h"
 #include "wall_table.h"
 
 namespace bumper {
@@ -37,8 +38,10 @@ class BarrierMesh {
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const WallTable& walls() const { return walls_; }
   [[nodiscard]] const WallReport& report() const { return report_; }
-  /// The geom that the application's contacts come with.
+  /// The geom that the application's contacts come with; it may be gone.
   [[nodiscard]] dGeomID geom() const { return geom_; }
+  /// The same as long as it is Bumper's; null if it is the application's own.
+  [[nodiscard]] const LentGeom* lentGeom() const { return lent_ ? &*lent_ : nullptr; }
   /// The materials of the scene's meshes, and which of them a wall belongs to.
   [[nodiscard]] const std::vector<std::string>& materials() const { return materials_; }
   [[nodiscard]] std::size_t meshOf(int wall) const {
@@ -109,7 +112,7 @@ class BarrierMesh {
   dTriMeshDataID data_ = nullptr;
   dGeomID queryGeom_ = nullptr;  // in no space; carries our callbacks
   dGeomID geom_ = nullptr;
-  bool ownsGeom_ = false;
+  std::optional<LentGeom> lent_;
   bool solid_ = false;
 };
 

@@ -29,7 +29,7 @@ OwnedPair ordered(const Responder::Implementation& responder, dGeomID vehicleGeo
   const dBodyID body = dGeomGetBody(vehicleGeom);
   if (body == nullptr) return {};
   const auto barrier = responder.barrierOfGeom.find(barrierGeom);
-  if (barrier == responder.barrierOfGeom.end()) return {};
+  if (barrier == responder.barrierOfGeom.end() || !barrier->second->isStill(barrierGeom)) return {};
   const auto vehicle = responder.vehicleOfBody.find(body);
   if (vehicle == responder.vehicleOfBody.end() || !vehicle->second->isUpright()) return {};
   return {.vehicle = vehicle->second, .body = body, .barrier = barrier->second};
@@ -67,7 +67,7 @@ dGeomID transformAround(const Responder::Implementation& responder, dGeomID geom
     }
   }
   for (const auto& [own, barrier] : responder.barrierOfGeom) {
-    if (holds(own, geom)) return own;
+    if (barrier->isStill(own) && holds(own, geom)) return own;
   }
   return nullptr;
 }

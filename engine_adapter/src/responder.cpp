@@ -7,6 +7,7 @@
 
 #include "bumper/response/error.h"
 #include "responder_implementation.h"
+#include "vehicle_warnings.h"
 
 namespace bumper {
 
@@ -34,36 +35,6 @@ void requireClose(double actual, double given, double tolerance, const char* wha
           << 100.0 * tolerance
           << " %. Is every body that moves with the chassis among the linked bodies?";
   throw Error(message.str());
-}
-
-void warnOfLosses(dBodyID body, const std::string& vehicle, std::vector<std::string>& warnings) {
-  const auto warn = [&](const char* what) {
-    warnings.push_back("vehicle '" + vehicle + "': a body has " + what +
-                       ", which takes a part of every impulse");
-  };
-  if (dBodyGetLinearDamping(body) > 0.0) warn("linear damping");
-  if (dBodyGetAngularDamping(body) > 0.0) warn("angular damping");
-  if (std::isfinite(dBodyGetMaxAngularSpeed(body)) && dBodyGetMaxAngularSpeed(body) < 1e6) {
-    warn("a maximum angular speed");
-  }
-}
-
-// A wheel on a joint that is not linked hangs on the chassis as dead weight that no law knows of.
-void warnOfStrangers(dBodyID body, std::span<const dBodyID> vehicle, const std::string& name,
-                     std::vector<std::string>& warnings) {
-  for (int i = 0; i < dBodyGetNumJoints(body); ++i) {
-    const dJointID joint = dBodyGetJoint(body, i);
-    if (dJointGetType(joint) == dJointTypeContact) continue;
-    for (const int side : {0, 1}) {
-      const dBodyID other = dJointGetBody(joint, side);
-      if (other == nullptr || std::find(vehicle.begin(), vehicle.end(), other) != vehicle.end()) {
-        continue;
-      }
-      warnings.push_back("vehicle '" + name +
-                         "': a joint leads to a body that is not among the linked bodies; if it "
-                         "moves with the chassis as one, impulses will be wrong by its mass");
-    }
-  }
 }
 
 void validateSettings(const ResponseSettings& settings, const ResponderOptions& usual) {
@@ -97,17 +68,25 @@ BarrierId add(Responder::Implementation& responder, const BarrierOptions& option
   auto barrier = makeBarrier(responder, id, options, std::move(name), source...);
   responder.longestPenetrationTime =
       std::max(responder.longestPenetrationTime, barrier->longestPenetrationTime());
-  responder.barrierOfGeom.emplace(barrier->geom(), barrier.get());
+  responder.barrierOfGeom.insert_or_assign(barrier->geom(), barrier.get());
   responder.barriers.push_back(std::move(barrier));
   responder.forgetSurroundings();
   return id;
 }
 
+// A geom at the same address may be another barrier by now.
+void forgetGeom(Responder::Implementation& responder, const Barrier& barrier) {
+  const auto entry = responder.barrierOfGeom.find(barrier.geom());
+  if (entry != responder.barrierOfGeom.end() && entry->second == &barrier) {
+    responder.barrierOfGeom.erase(entry);
+  }
+}
+
 // The same barrier with other walls.
 template <typename... Source>
-void update(Responder::Implementation& responder, const Barrier& old, const Source&... source) {
-  std::unique_ptr<Barrier> fresh =
-      makeBarrier(responder, old.id(), old.options(), old.name(), source...);
+void update(Responder::Implementation& responder, const Barrier& old, const BarrierOptions& options,
+            const Source&... source) {
+  std::unique_ptr<Barrier> fresh = makeBarrier(responder, old.id(), options, old.name(), source...);
   for (const std::unique_ptr<Vehicle>& vehicle : responder.vehicles) {
     if (vehicle == nullptr) continue;
     for (VehicleMemory* memory : {&vehicle->memory, &vehicle->memoryBefore}) {
@@ -120,8 +99,8 @@ void update(Responder::Implementation& responder, const Barrier& old, const Sour
       if (load.barrier == old.id()) load.wall = std::min(load.wall, fresh->wallCount() - 1);
     }
   }
-  responder.barrierOfGeom.erase(old.geom());
-  responder.barrierOfGeom.emplace(fresh->geom(), fresh.get());
+  forgetGeom(responder, old);
+  responder.barrierOfGeom.insert_or_assign(fresh->geom(), fresh.get());
   responder.barriers[static_cast<std::size_t>(old.id().value)] = std::move(fresh);
   responder.forgetSurroundings();
 }
@@ -137,7 +116,8 @@ void requireUsable(const Responder::Implementation& responder, dGeomID geom) {
   if (geom == nullptr) throw Error("addBarrier: the geom is null");
   if (dGeomIsSpace(geom) != 0) throw Error("addBarrier: the geom is a space");
   requireStanding(geom, "addBarrier");
-  if (responder.barrierOfGeom.contains(geom)) {
+  const auto known = responder.barrierOfGeom.find(geom);
+  if (known != responder.barrierOfGeom.end() && known->second->isStill(geom)) {
     throw Error("addBarrier: the geom is a barrier already");
   }
 }
@@ -184,7 +164,7 @@ void Responder::updateBarrier(BarrierId barrier) {
                 "' came from a scene: give the scene as it is now");
   }
   requireStanding(old.geom(), "updateBarrier");
-  update(*implementation_, old, old.geom());
+  update(*implementation_, old, old.options(), old.geom());
 }
 
 void Responder::updateBarrier(BarrierId barrier, const Scene& scene) {
@@ -193,16 +173,26 @@ void Responder::updateBarrier(BarrierId barrier, const Scene& scene) {
     throw Error("updateBarrier: the walls of barrier '" + old.name() +
                 "' are read from its geom: no scene is needed");
   }
-  if (old.options().geom == nullptr) {
-    update(*implementation_, old, scene);
+  const LentGeom* lent = old.mesh()->lentGeom();
+  if (lent == nullptr) {
+    requireStanding(old.geom(), "updateBarrier");
+    update(*implementation_, old, old.options(), old.geom(), scene);
     return;
   }
-  requireStanding(old.options().geom, "updateBarrier");
-  update(*implementation_, old, old.options().geom, scene);
+  if (!lent->exists()) {
+    throw Error("updateBarrier: the geom of barrier '" + old.name() +
+                "' was destroyed: remove the barrier and add it anew");
+  }
+  BarrierOptions options = old.options();
+  // The space that it was put into may be gone by now, and the geom in another.
+  if (options.space != nullptr) options.space = dGeomGetSpace(lent->address());
+  update(*implementation_, old, options, scene);
 }
 
 dGeomID Responder::geom(BarrierId barrier) const {
-  return registered(implementation_->barriers, barrier.value, "barrier").geom();
+  const Barrier& self = registered(implementation_->barriers, barrier.value, "barrier");
+  const LentGeom* lent = self.mesh() != nullptr ? self.mesh()->lentGeom() : nullptr;
+  return lent != nullptr && lent->wentWithSpace() ? nullptr : self.geom();
 }
 
 const WallReport& Responder::report(BarrierId barrier) const {
@@ -242,7 +232,7 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
                 std::to_string(band.top) + " m: the bottom must lie below the top");
   }
 
-  VehicleBodies vehicleBodies(bodies);
+  const VehicleBodies vehicleBodies(bodies);
   const VehicleState state = vehicleBodies.read();
   requireClose(state.mass, parameters.mass, massTolerance, "mass", "kg");
   requireClose(state.yawInertia, parameters.yawInertia, inertiaTolerance, "yaw inertia", "kg m²");
@@ -251,11 +241,14 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
   const std::string name =
       options.name.empty() ? "vehicle " + std::to_string(id) : std::string(options.name);
   auto vehicle = std::make_unique<Vehicle>(VehicleId{id}, parameters, band, options.tiltLimit, name,
-                                           std::move(vehicleBodies));
+                                           vehicleBodies);
+  self.warnings.drop(nullptr);
+  if (std::optional<std::string> text = warningOf(self.world)) self.warnings.add(nullptr, *text);
+  for (std::string& text : warningsOf(vehicleBodies, parameters, band, name)) {
+    self.warnings.add(vehicle.get(), std::move(text));
+  }
   for (dBodyID body : bodies) {
     if (options.finiteRotation) dBodySetFiniteRotationMode(body, 1);
-    warnOfLosses(body, name, self.warnings);
-    warnOfStrangers(body, bodies, name, self.warnings);
     self.vehicleOfBody.emplace(body, vehicle.get());
   }
   self.vehicles.push_back(std::move(vehicle));
@@ -281,17 +274,31 @@ void Responder::removeBarrier(BarrierId barrier) {
     }
   }
   implementation_->forgetSurroundings();
-  implementation_->barrierOfGeom.erase(removed.geom());
+  forgetGeom(*implementation_, removed);
+  implementation_->warnings.drop(&removed);
   implementation_->barriers[static_cast<std::size_t>(barrier.value)].reset();
 }
 
 void Responder::removeVehicle(VehicleId vehicle) {
   const Vehicle& removed = registered(implementation_->vehicles, vehicle.value, "vehicle");
   for (dBodyID body : removed.bodies.all()) implementation_->vehicleOfBody.erase(body);
+  implementation_->warnings.drop(&removed);
   std::unique_ptr<Vehicle>& place =
       implementation_->vehicles[static_cast<std::size_t>(vehicle.value)];
   place->guards.release();
   place.reset();
+}
+
+Eigen::Vector3d Responder::position(VehicleId vehicle) const {
+  return registered(implementation_->vehicles, vehicle.value, "vehicle")
+      .bodies.readPose()
+      .massCentre;
+}
+
+Eigen::Quaterniond Responder::orientation(VehicleId vehicle) const {
+  const Vehicle& self = registered(implementation_->vehicles, vehicle.value, "vehicle");
+  const dReal* q = dBodyGetQuaternion(self.bodies.chassis());
+  return {q[0], q[1], q[2], q[3]};
 }
 
 Eigen::Vector3d Responder::velocity(VehicleId vehicle) const {
@@ -367,6 +374,6 @@ unsigned Responder::issues(VehicleId vehicle) const {
   return registered(implementation_->vehicles, vehicle.value, "vehicle").issues;
 }
 
-std::span<const std::string> Responder::warnings() const { return implementation_->warnings; }
+std::span<const std::string> Responder::warnings() const { return implementation_->warnings.all(); }
 
 }  // namespace bumper

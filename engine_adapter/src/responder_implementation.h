@@ -19,6 +19,7 @@
 #include "nearby_walls.h"
 #include "vehicle_bodies.h"
 #include "wall_query.h"
+#include "warnings.h"
 #include "world_clock.h"
 
 namespace bumper {
@@ -68,7 +69,7 @@ struct Responder::Implementation {
   std::vector<std::unique_ptr<Vehicle>> vehicles;
   std::unordered_map<dGeomID, const Barrier*> barrierOfGeom;
   std::unordered_map<dBodyID, const Vehicle*> vehicleOfBody;
-  std::vector<std::string> warnings;
+  Warnings warnings;
 
   double time = 0.0;
   double lastStep = 0.0;

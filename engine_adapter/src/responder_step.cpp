@@ -238,8 +238,8 @@ void Responder::Implementation::reportLoads(Vehicle& vehicle, const VehicleState
         (state.axes.transpose() * (state.velocity - impulse / state.mass)).head<2>().norm();
     event.energyLost = share.energyLost;
     event.regime = Regime::sticking;
-    for (const auto& [is, phase] : {std::pair(isImpact, EventPhase::impact),
-                                    std::pair(begins, EventPhase::contact_begin)}) {
+    for (const auto& [is, phase] :
+         {std::pair(isImpact, EventPhase::impact), std::pair(begins, EventPhase::contact_begin)}) {
       event.phase = phase;
       if (is) events.push_back(event);
     }
@@ -405,8 +405,9 @@ void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
     return;
   }
   const VehicleState state = vehicle.bodies.read();
-  if (!state.isFinite()) {
-    vehicle.issues |= step_issue::not_finite;
+  const bool isMoved = vehicle.bodies.anyKinematic();
+  if (isMoved || !state.isFinite()) {
+    vehicle.issues |= isMoved ? step_issue::kinematic : step_issue::not_finite;
     memory.pulse.drop();
     vehicle.guards.forget();
     return;

@@ -2,9 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <sstream>
+#include <string>
 
 #include "bumper/response/error.h"
+#include "geom_class.h"
 #include "ode_vectors.h"
+#include "vehicle_extents.h"
 
 namespace bumper {
 
@@ -23,6 +28,34 @@ Eigen::Vector3d torqueFor(const dMass& mass, dBodyID body, const Eigen::Vector3d
   const Eigen::Vector3d inOwnAxes = rotation.transpose() * acceleration;
   const Eigen::Vector3d torque = toMatrix(mass.I) * inOwnAxes;
   return rotation * torque;
+}
+
+VehicleBodies bodiesOf(dBodyID chassis, std::span<const dBodyID> linkedBodies, const char* call) {
+  std::vector<dBodyID> bodies{chassis};
+  bodies.insert(bodies.end(), linkedBodies.begin(), linkedBodies.end());
+  if (std::find(bodies.begin(), bodies.end(), nullptr) != bodies.end()) {
+    throw Error(std::string(call) + ": a body is null");
+  }
+  return VehicleBodies(std::move(bodies));
+}
+
+// The geoms of bodies that cannot be measured, for an error.
+std::string geomsOf(std::span<const dBodyID> bodies) {
+  std::string names;
+  for (dBodyID body : bodies) {
+    for (dGeomID geom = dBodyGetFirstGeom(body); geom != nullptr; geom = dBodyGetNextGeom(geom)) {
+      names += (names.empty() ? "" : ", ") + std::string(classNameOf(geom));
+    }
+  }
+  return names.empty() ? "have no geom" : "have no geom that can be measured, only: " + names;
+}
+
+void requireBeyond(double reach, const char* side) {
+  if (reach > 0.0) return;
+  std::ostringstream message;
+  message << "parametersFromGeoms: the geoms end " << -reach << " m before the mass centre at the "
+          << side << ": it must lie within them";
+  throw Error(message.str());
 }
 
 }  // namespace
@@ -84,6 +117,11 @@ bool VehicleBodies::areAsleep() const {
                       [](dBodyID body) { return dBodyIsEnabled(body) != 0; });
 }
 
+bool VehicleBodies::anyKinematic() const {
+  return std::any_of(bodies_.begin(), bodies_.end(),
+                     [](dBodyID body) { return dBodyIsKinematic(body) != 0; });
+}
+
 void VehicleBodies::push(const VehicleState& state, const PlanarForce& force) const {
   const Eigen::Vector3d acceleration = state.toWorld(force.force) / state.mass;
   const Eigen::Vector3d turning = force.yawMoment / state.yawInertia * state.up();
@@ -128,17 +166,30 @@ Band plateBand(const VehicleParameters& vehicle) {
 VehicleParameters parametersFromBodies(dBodyID chassis, std::span<const dBodyID> linkedBodies,
                                        double massCentreToFront, double massCentreToRear,
                                        double width, double massCentreHeight) {
-  std::vector<dBodyID> bodies{chassis};
-  bodies.insert(bodies.end(), linkedBodies.begin(), linkedBodies.end());
-  if (std::find(bodies.begin(), bodies.end(), nullptr) != bodies.end()) {
-    throw Error("parametersFromBodies: a body is null");
-  }
-  const VehicleState state = VehicleBodies(std::move(bodies)).read();
+  const VehicleState state = bodiesOf(chassis, linkedBodies, "parametersFromBodies").read();
   return {.mass = state.mass,
           .yawInertia = state.yawInertia,
           .massCentreToFront = massCentreToFront,
           .massCentreToRear = massCentreToRear,
           .width = width,
+          .massCentreHeight = massCentreHeight};
+}
+
+VehicleParameters parametersFromGeoms(dBodyID chassis, std::span<const dBodyID> linkedBodies,
+                                      double massCentreHeight) {
+  const VehicleBodies bodies = bodiesOf(chassis, linkedBodies, "parametersFromGeoms");
+  const VehicleState state = bodies.read();
+  const std::optional<VehicleExtents> geoms = extentsOf(bodies.all(), state);
+  if (!geoms) throw Error("parametersFromGeoms: the bodies " + geomsOf(bodies.all()));
+  const double halfWidth = std::max(geoms->left, geoms->right);
+  requireBeyond(geoms->front, "front");
+  requireBeyond(geoms->rear, "rear");
+  requireBeyond(std::min(geoms->left, geoms->right), "side");
+  return {.mass = state.mass,
+          .yawInertia = state.yawInertia,
+          .massCentreToFront = geoms->front,
+          .massCentreToRear = geoms->rear,
+          .width = 2.0 * halfWidth,
           .massCentreHeight = massCentreHeight};
 }
 

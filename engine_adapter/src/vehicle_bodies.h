@@ -53,6 +53,8 @@ class VehicleBodies {
   [[nodiscard]] VehiclePose readPose() const;
   /// Whether ODE has put all of them to sleep.
   [[nodiscard]] bool areAsleep() const;
+  /// Whether no force moves one of them.
+  [[nodiscard]] bool anyKinematic() const;
 
   /// Adds forces and torques that give every body its share of the force at the common mass centre
   /// and of the moment about the chassis' z axis, as parts of one rigid body: no roll, no pitch, no

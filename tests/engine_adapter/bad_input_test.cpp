@@ -11,7 +11,6 @@
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/response/error.h"
 #include "bumper/scenes/paper_scenes.h"
-#include "hinge2_car.h"
 #include "ode_world.h"
 
 namespace bumper::tests {
@@ -101,7 +100,12 @@ TEST(BadInput, Barriers) {
   expectError([&] { responder.addBarrier(car.geom); }, "has a body");
   const dGeomID sphere = dCreateSphere(nullptr, 1.0);
   expectError([&] { responder.addBarrier(sphere); }, "given as a scene");
+  expectError([&] { responder.addBarrier(sphere); }, "is a sphere");
   dGeomDestroy(sphere);
+  const dGeomID field = dCreateHeightfield(nullptr, dGeomHeightfieldDataCreate(), 0);
+  expectError([&] { responder.addBarrier(field); }, "is a heightfield");
+  dGeomHeightfieldDataDestroy(dGeomHeightfieldGetHeightfieldData(field));
+  dGeomDestroy(field);
   const dGeomID ground = dCreatePlane(nullptr, 0.0, 0.0, 1.0, 0.0);
   expectError([&] { responder.addBarrier(ground); }, "plane is flatter");
   dGeomDestroy(ground);
@@ -183,29 +187,6 @@ TEST(BadInput, StepsThatAreNoTime) {
   EXPECT_EQ(responder.issues(), step_issue::none);
   EXPECT_EQ(responder.time(), 0.0);
   EXPECT_EQ(dBodyGetForce(car.body)[1], 0.0);
-}
-
-TEST(BadInput, DampingIsWarnedOf) {
-  OdeWorld ode;
-  Responder responder(ode.world);
-  BoxCar car(ode.world);
-  dBodySetLinearDamping(car.body, 0.01);
-  responder.addVehicle(car.body, car.parameters, {.name = "taxi"});
-  ASSERT_EQ(responder.warnings().size(), 1U);
-  EXPECT_THAT(responder.warnings()[0], ::testing::AllOf(::testing::HasSubstr("taxi"),
-                                                        ::testing::HasSubstr("linear damping")));
-}
-
-TEST(BadInput, WheelsThatAreNotLinkedAreWarnedOf) {
-  OdeWorld ode;
-  Responder responder(ode.world);
-  Hinge2Car car(ode.world, ode.space, {0.0, 0.0}, 0.0, 0.0, 0.0);
-  const VehicleParameters chassisOnly = parametersFromBodies(car.chassis, {}, 2.1, 2.1, 1.8, 0.6);
-  responder.removeVehicle(responder.addVehicle(car.chassis, chassisOnly));
-  ASSERT_EQ(responder.warnings().size(), 4U);
-  EXPECT_THAT(responder.warnings()[0], ::testing::HasSubstr("not among the linked bodies"));
-  responder.addVehicle(car.chassis, car.parameters(), {.linkedBodies = car.wheels});
-  EXPECT_EQ(responder.warnings().size(), 4U);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST(Lifecycle, ARemovedBarrierIsNoLongerThere) {
   Responder responder(ode.world);
   const int geoms = dSpaceGetNumGeoms(ode.space);
   const BarrierId first = responder.addBarrier(wall(), {.space = ode.space, .name = "first"});
-  EXPECT_EQ(dSpaceGetNumGeoms(ode.space), geoms + 1);
+  EXPECT_EQ(dSpaceGetNumGeoms(ode.space), geoms + 2);  // … and the one that watches it
   BoxCar car(ode.world);
   responder.addVehicle(car.body, car.parameters);
   placeAtWall(car, 0.0);
@@ -84,7 +84,7 @@ TEST(Lifecycle, AMovedSceneTakesTheOldOnesPlace) {
   Scene moved = wall();
   for (Eigen::Vector3d& vertex : moved.vertices) vertex.y() -= 3.0;
   responder.updateBarrier(gate, moved);
-  EXPECT_EQ(dSpaceGetNumGeoms(ode.space), geoms + 2);  // the car's and the new one
+  EXPECT_EQ(dSpaceGetNumGeoms(ode.space), geoms + 3);  // the car's, the new one, its watcher
   EXPECT_TRUE(responder.claims(car.geom, responder.geom(gate)));
   placeAtWall(car, 0.0);
   EXPECT_TRUE(responder.step(h).empty());

@@ -212,6 +212,20 @@ TEST(StepContract, TimeGoesOnAfterAPushEnds) {
   EXPECT_NEAR(run.responder.time(), 600 * h, 1e-12);
 }
 
+// Moved by the application from now on: no force can.
+TEST(StepContract, AVehicleMadeKinematicIsNoticed) {
+  Approach run;
+  while (run.responder.step(h).empty()) dWorldQuickStep(run.ode.world, h);
+  dWorldQuickStep(run.ode.world, h);
+  dBodySetKinematic(run.car.body);
+  run.responder.step(h);
+  EXPECT_EQ(run.responder.issues(run.vehicle), step_issue::kinematic);
+  EXPECT_EQ(dBodyGetForce(run.car.body)[0], 0.0);
+  dBodySetDynamic(run.car.body);
+  run.responder.step(h);
+  EXPECT_EQ(run.responder.issues(run.vehicle), step_issue::none);
+}
+
 // Put 30 m on in the direction in which it goes it looks as after a world step of two seconds.
 TEST(StepContract, ATeleportAlongTheWayIsNoLongStep) {
   Approach run;

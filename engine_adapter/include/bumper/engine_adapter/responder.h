@@ -3,6 +3,7 @@
 #include <ode/ode.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <memory>
 #include <span>
 #include <string>
@@ -56,6 +57,8 @@ inline constexpr unsigned other_step_size = 32;  ///< the world's step had anoth
                                                  ///< step(h): what was not delivered is, now
 inline constexpr unsigned moved = 64;  ///< a vehicle was moved by other means than a world step:
                                        ///< what was still to be delivered is dropped
+inline constexpr unsigned kinematic = 128;  ///< a body of a vehicle was made kinematic: no force
+                                            ///< moves it, and the vehicle was left alone
 }  // namespace step_issue
 
 /// Replaces ODE's contact joints between vehicles and barriers by impulses, delivered as constant
@@ -77,9 +80,18 @@ inline constexpr unsigned moved = 64;  ///< a vehicle was moved by other means t
 /// the chassis and its linked bodies. World: right-handed, z up, metres, double precision.
 ///
 /// Barriers stand still between calls of updateBarrier(): a scene, or a geom of the application's.
-/// Nothing here touches data, callbacks or collision bits of the application's geoms and bodies. A
-/// body, a geom, or the space that holds a barrier's new geom must be removed here before it is
-/// destroyed, or outlive the responder. Set-up calls throw Error and then change nothing; step(),
+/// Nothing here touches data, callbacks or collision bits of the application's geoms and bodies.
+///
+/// The end: best is the responder first, then geoms and spaces, then the world. Otherwise bodies
+/// must not be gone when a call reads them: step(), claims(), keepUnclaimed(), save() and what asks
+/// for a vehicle; of geoms of the application's only updateBarrier() reads. removeVehicle(),
+/// removeBarrier() and the destructor read neither, whatever is gone. The new geom of a barrier may
+/// be destroyed with its space, or by itself unless in a quadtree space, and be moved to a space
+/// that hangs together with the old one: one is in the other, or both are in a third. Its walls
+/// still answer until removeBarrier(). One that was made in no space is Bumper's to destroy, and
+/// must not be in a space when that is destroyed.
+///
+/// Set-up calls throw Error and then change nothing; step(),
 /// claims() and keepUnclaimed() do not throw, unless memory runs out. A responder that was moved
 /// from can only be destroyed or assigned to. One responder belongs to one thread at a time; see
 /// trimeshLock() for several.
@@ -95,7 +107,10 @@ class Responder {
 
   /// The walls of a scene, as a new trimesh geom in `options.space`, or as the shape of
   /// `options.geom`. Other bodies collide with that geom as with any other. The scene is copied.
-  /// Throws Error if it is invalid or has no wall.
+  /// With a new geom its space gets another one, by which Bumper learns of the space's end: a
+  /// sphere without size on a body of Bumper's, disabled, without category and collide bits. No
+  /// near callback gets it, but dSpaceGetNumGeoms() counts it; leave it alone. Throws Error if the
+  /// scene is invalid or has no wall.
   BarrierId addBarrier(const Scene& scene, const BarrierOptions& options = {});
 
   /// A geom that the application already has: the walls of a trimesh, road and walls in one, the
@@ -107,13 +122,15 @@ class Responder {
 
   /// Call after the application has moved or changed a barrier's geom: its walls are read anew. Of
   /// a barrier made from a scene, or whose shape is given as one, the scene as it is now takes the
-  /// old one's place; its own geom is then a new one. Id, name and settings stay, and so does what
-  /// vehicles are doing with it; one that it was moved into is eased out, not pushed. The last
-  /// step's events are void. Costs as much as adding it. Throws Error as addBarrier() does.
+  /// old one's place; its own geom is then a new one, in the same space. Id, name and settings
+  /// stay, and so does what vehicles are doing with it; one that it was moved into is eased out,
+  /// not pushed. The last step's events are void. Costs as much as adding it. Throws Error as
+  /// addBarrier() does, and if the barrier's own geom was destroyed.
   void updateBarrier(BarrierId barrier);
   void updateBarrier(BarrierId barrier, const Scene& scene);
 
-  /// The geom that a barrier's contacts come with: the new one, or the application's own.
+  /// The geom that a barrier's contacts come with: the new one, which is null once its space was
+  /// destroyed, or the application's own.
   [[nodiscard]] dGeomID geom(BarrierId barrier) const;
 
   /// What was kept of a barrier's mesh, and what was dropped.
@@ -126,7 +143,7 @@ class Responder {
   VehicleId addVehicle(dBodyID chassis, const VehicleParameters& parameters,
                        const VehicleOptions& options = {});
 
-  /// Call before the geom, or the bodies, are destroyed. Unknown ids are an Error.
+  /// The geoms and bodies may be gone. Unknown ids are an Error.
   void removeBarrier(BarrierId barrier);
   void removeVehicle(VehicleId vehicle);
 
@@ -143,6 +160,11 @@ class Responder {
   /// events are valid until the next step(), the names in them as long as their owners are
   /// registered. Vehicles that ODE has put to sleep stay asleep.
   std::span<const ImpactEvent> step(double h);
+
+  /// Where a vehicle is: the common mass centre of its bodies, world, m, and the turn from its axes
+  /// to the world's, of unit length, as ODE has them now.
+  [[nodiscard]] Eigen::Vector3d position(VehicleId vehicle) const;
+  [[nodiscard]] Eigen::Quaterniond orientation(VehicleId vehicle) const;
 
   /// A vehicle's velocity, m/s, and yaw rate about its own z axis, rad/s, with what is still to be
   /// delivered: after the last impact, by the law.
@@ -163,8 +185,11 @@ class Responder {
   [[nodiscard]] unsigned issues() const;
   [[nodiscard]] unsigned issues(VehicleId vehicle) const;
 
-  /// What set-up calls noticed that would falsify an impulse: damping, speed limits, jointed bodies
-  /// that are not linked.
+  /// What set-up calls noticed of the vehicles and barriers that are registered. Falsifies an
+  /// impulse: damping, speed limits, jointed bodies that are not linked. Lets a vehicle into walls:
+  /// geoms that stand out of the outline within the band by more than 1 cm, with the figure. Is not
+  /// what it should be: gravity that does not point along −z, a mass centre so low that geoms would
+  /// be in the ground. Each is said once; valid until the next set-up call.
   [[nodiscard]] std::span<const std::string> warnings() const;
 
   struct Implementation;  ///< in the library's own sources

@@ -52,4 +52,13 @@ VehicleParameters parametersFromBodies(dBodyID chassis, std::span<const dBodyID>
                                        double massCentreToFront, double massCentreToRear,
                                        double width, double massCentreHeight);
 
+/// The same with an outline that encloses the bodies' geoms as they lie now, at whatever height.
+/// The mass centre lies in the middle of the width: it is twice the way to the farther side. Boxes,
+/// spheres, capsules, cylinders, convexes, trimeshes and geom transforms are measured; heightfields
+/// and classes of the application's own cannot be, nor a convex in a geom transform, and are left
+/// out, as are rays and geoms without category and collide bits. Throws Error on a null body, if
+/// nothing can be measured, or if the mass centre does not lie between the geoms' ends.
+VehicleParameters parametersFromGeoms(dBodyID chassis, std::span<const dBodyID> linkedBodies,
+                                      double massCentreHeight);
+
 }  // namespace bumper

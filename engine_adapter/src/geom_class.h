@@ -1,0 +1,10 @@
+#pragma once
+
+#include <ode/ode.h>
+
+namespace bumper {
+
+/// What ODE calls the class of a geom, with its article: "a sphere".
+const char* classNameOf(dGeomID geom);
+
+}  // namespace bumper

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace bumper {
+
+/// What set-up calls noticed, each said once of each owner: the vehicle or barrier that it is
+/// about. Null owns what is about the world.
+class Warnings {
+ public:
+  void add(const void* owner, std::string text);
+  void drop(const void* owner);
+  /// In the order in which they came.
+  [[nodiscard]] std::span<const std::string> all() const { return texts_; }
+
+ private:
+  std::vector<const void*> owners_;  // of each text
+  std::vector<std::string> texts_;
+};
+
+}  // namespace bumper
