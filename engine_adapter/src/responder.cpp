@@ -362,6 +362,7 @@ void Responder::restore(const SavedState& state) {
   }
   if (self.clock) self.clock->stop();
   dJointGroupEmpty(self.guardJoints.get());
+  self.hasGuards = false;
   self.forgetSurroundings();
   self.time = state.time;
 }

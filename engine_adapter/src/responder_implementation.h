@@ -80,6 +80,7 @@ struct Responder::Implementation {
 
   std::optional<WorldClock> clock;  // from the first vehicle on
   std::unique_ptr<dxJointGroup, JointGroupDeleter> guardJoints{dJointGroupCreate(0)};
+  bool hasGuards = false;  // the group has joints
 
   // Scratch memory, kept from step to step.
   CollisionStep collision;

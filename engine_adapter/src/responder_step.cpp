@@ -336,6 +336,7 @@ void Responder::Implementation::addGuards(Vehicle& vehicle, const VehicleState& 
          .friction =
              slides ? settings.friction(attackDirection(impact, motion, settings.angle)) : 0.0},
         guardJoints.get(), vehicle.bodies.chassis(), state, time);
+    hasGuards = true;
   }
 }
 
@@ -471,7 +472,10 @@ std::span<const ImpactEvent> Responder::step(double h) {
   Implementation& self = *implementation_;
   self.events.clear();
   self.issues = step_issue::none;
-  dJointGroupEmpty(self.guardJoints.get());
+  if (self.hasGuards) {
+    dJointGroupEmpty(self.guardJoints.get());
+    self.hasGuards = false;
+  }
   // Those that are not certainly away from all walls. One that is has nothing to say, and had
   // nothing to say before.
   Vehicle** last = self.active.data();
