@@ -31,14 +31,13 @@ std::array<Facing, 4> facings(const Outline& outline, const Vector2& place) {
 }  // namespace
 
 void SpeculativeContacts::add(const SpeculativeContact& contact) {
-  const auto begin = contacts_.begin();
-  const auto place = std::find_if(begin, begin + count_, [&](const SpeculativeContact& each) {
-    return contact.gap < each.gap;
-  });
-  if (place == contacts_.end()) return;
+  // The place behind all that are no further.
+  std::size_t place = count_;
+  while (place > 0 && contact.gap < contacts_[place - 1].gap) --place;
+  if (place == most) return;
   if (count_ < most) ++count_;
-  std::move_backward(place, begin + count_ - 1, begin + count_);
-  *place = contact;
+  for (std::size_t k = count_ - 1; k > place; --k) contacts_[k] = contacts_[k - 1];
+  contacts_[place] = contact;
 }
 
 void addSpeculativeContacts(const Outline& outline, const PlanarMotion& start,
