@@ -42,7 +42,8 @@ static_assert(CollisionStep::maxImpacts ==
 constexpr double easeOutShare = 0.2;
 constexpr double easeOutDepth = 1e-4;
 
-// What is found deeper than this within a step, m, was not touched anew: it slides.
+// What is found deeper than this within a step, m, was not touched anew: it slides, unless it
+// approaches faster than it can have become since it was last looked at.
 constexpr double slidingDepth = 10.0 * touchTolerance;
 
 // Part of a step after which a touch without effect is looked at again.
@@ -435,7 +436,8 @@ CollisionStep::Settled CollisionStep::settle(double time) {
       return last ? Settled::for_now : Settled::by_impulses;
     }
     const Overlap& overlap = next.wall->overlap;
-    const bool slides = time > 0.0 && overlap.byEnd && overlap.depth > slidingDepth;
+    const bool slides = time > 0.0 && overlap.byEnd && overlap.depth > slidingDepth &&
+                        next.at.speed <= gapAcceleration() * step_ / looksInStep;
     const bool tooMany = count >= plasticAfter || (!slides && answers_ >= plasticInStepAfter);
     Rebound rebound = slides ? Rebound::elastic : Rebound::as_set;
     if (tooMany) rebound = Rebound::none;
@@ -459,12 +461,16 @@ Vector2 CollisionStep::easeOut(double h) const {
   return speed > maxEaseOut ? Vector2(maxEaseOut / speed * velocity) : velocity;
 }
 
+// The most that the rate of any gap can change by itself, m/s².
+double CollisionStep::gapAcceleration() const {
+  const double turning = std::abs(motion_.yawRate);
+  return turning * (2.0 * motion_.velocity.norm() + turning * outline_.radius());
+}
+
 // How long a wall that is touched can be left alone, s: none of the points that touch can approach
 // before, or be deeper than `unseenDepth`.
 double CollisionStep::quietTime(const Wall& wall, double h) const {
-  // The most that the rate of any gap can change by itself.
-  const double turning = std::abs(motion_.yawRate);
-  const double bend = turning * (2.0 * motion_.velocity.norm() + turning * outline_.radius());
+  const double bend = gapAcceleration();
   if (wall.hidden) return leastTime(unseenDepth, 0.0, bend);
   const Overlap& overlap = wall.overlap;
   const Vector2 tangent = turnedLeft(overlap.normal);
@@ -476,7 +482,8 @@ double CollisionStep::quietTime(const Wall& wall, double h) const {
         !overlap.byEnd && std::min(along - overlap.start, overlap.end - along) > touchTolerance;
     // Turning draws a corner away from the wall as long as it lies on the wall's side of the mass
     // centre; at the step's end, too.
-    const double highest = overlap.normal.dot(contact.arm) + turning * h * outline_.radius();
+    const double highest =
+        overlap.normal.dot(contact.arm) + std::abs(motion_.yawRate) * h * outline_.radius();
     if (!isCorner || highest > 0.0) {
       time = std::min(time, leastTime(unseenDepth, -overlap.normal.dot(velocity), bend));
     }
@@ -534,6 +541,7 @@ StepOutcome CollisionStep::resolve(const VehicleParameters& vehicle, const Plana
   vehicle_ = vehicle;
   outline_ = Outline(vehicle);
   motion_ = motion;
+  step_ = h;
   given_ = walls;
   impacts_.clear();
   answers_ = 0;

@@ -137,6 +137,7 @@ class CollisionStep {
   void answerTogether(double time);
   void record(const Wall& wall, const Approach& at, double time, const ImpactResponse& response);
   NextTouch nextTouch(double from, double until);
+  [[nodiscard]] double gapAcceleration() const;
   [[nodiscard]] double quietTime(const Wall& wall, double h) const;
   [[nodiscard]] double pause(double h) const;
 
@@ -152,6 +153,7 @@ class CollisionStep {
   VehicleParameters vehicle_;
   Outline outline_{VehicleParameters{}};
   PlanarMotion motion_;
+  double step_ = 0.0;
   Placement place_;  // of motion_, when one last looked around
   std::span<const WallSegment> given_;
 
