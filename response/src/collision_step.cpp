@@ -144,7 +144,9 @@ void CollisionStep::mergeWalls(std::span<const WallSegment> walls, const Vector2
     }
     WallSegment& whole = wall->segment;
     const Vector2 tangent = turnedLeft(whole.normal);
-    if (tangent.dot(piece.end) > tangent.dot(whole.end)) whole.end = piece.end;
+    // On the line itself: a touch is looked for along the line, and found at the segment.
+    const double length = tangent.dot(piece.end - whole.start);
+    if (length > tangent.dot(whole.end - whole.start)) whole.end = whole.start + length * tangent;
   }
 }
 

@@ -242,6 +242,57 @@ TEST(SweptStep, ImpactsAndFreeFlightBetweenThemAreTheStep) {
 
 // Steps with one impact: cut anywhere, before it or after it, they end in the same place. An end
 // that slides along a side is answered at times of its own in each step.
+// An application's mesh is in single precision, so the pieces of one wall lie a little off each
+// other's line, each with a normal of its own. Whatever way the vehicle comes, it is stopped.
+TEST(SweptStep, AWallOfPiecesThatAreNotQuiteInLineIsHit) {
+  Random random(31);
+  const ResponseSettings settings;
+  CollisionStep collision;
+  int impacts = 0;
+  for (int i = 0; i < 3'000; ++i) {
+    const double off = std::pow(10.0, random.uniform(-9.0, -4.4));
+    const VehicleParameters vehicle = randomVehicle(random);
+    const double angle = random.chance(0.5) ? 0.0 : random.uniform(-0.5, 0.5);
+    const double step = random.uniform(0.001, 0.02);
+    const double speed = random.uniform(1.0, 40.0);
+    // Of the outline's foremost point from the wall, at x = 0, which is reached within the step.
+    const double distance = random.uniform(0.0, 0.9) * speed * step;
+    const Outline outline(vehicle);
+    double reach = 0.0;
+    for (const Vector2& corner : outline.corners()) {
+      reach = std::max(reach, rotated(corner, angle).x());
+    }
+    PlanarMotion motion;
+    motion.position.x() = -distance - reach;
+    motion.yaw = angle;
+    motion.velocity = {speed, 0.0};
+    motion.yawRate = random.chance(0.5) ? 0.0 : random.uniform(-1e-3, 1e-3);
+
+    std::vector<WallSegment> walls;
+    for (double y = -6.0; y < 6.0;) {
+      const double length = random.uniform(0.05, 1.5);
+      const Vector2 start(random.uniform(0.0, off), y);
+      const Vector2 end(random.uniform(0.0, off), y + length);
+      walls.push_back({.start = start,
+                       .end = end,
+                       .normal = turnedLeft((end - start).normalized()),
+                       .id = static_cast<int>(walls.size()),
+                       .settings = &settings});
+      y += length;
+    }
+    const StepOutcome outcome = collision.resolve(vehicle, motion, walls, step);
+    impacts += outcome.impacts.empty() ? 0 : 1;
+    double deepest = -1.0;
+    for (const Vector2& corner : outline.corners()) {
+      deepest =
+          std::max(deepest, (outcome.after.position + rotated(corner, outcome.after.yaw)).x());
+    }
+    ASSERT_LE(deepest, off + 1e-6)
+        << i << ": off " << off << ", angle " << angle << ", speed " << speed << ", step " << step;
+  }
+  EXPECT_EQ(impacts, 3'000);
+}
+
 TEST(SweptStep, TwoHalvesAreTheWhole) {
   Random random(903);
   CollisionStep step;
