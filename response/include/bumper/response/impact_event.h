@@ -9,7 +9,9 @@ namespace bumper {
 
 enum class EventPhase {
   impact,         ///< one impulse with an approach speed above the settings' rest speed, or above
-                  ///< five times that while a contact lasts
+                  ///< five times that while a contact lasts; or a load, with which others press
+                  ///< the vehicle against the barrier, that rises to twice what it was of late: its
+                  ///< approach speed is that before the step, and no law was asked
   contact_begin,  ///< slower ones, step by step, begin: the vehicle leans on the barrier or scrapes
                   ///< along it
   contact_end     ///< they have ended; impulses, energyLost and duration are those of the whole
