@@ -50,21 +50,26 @@ bool hasOuterJoint(const VehicleBodies& bodies) {
   return anyOuterJoint(bodies, [](dBodyID) { return true; });
 }
 
-bool isHeldByAwakeBody(const VehicleBodies& bodies) {
-  return anyOuterJoint(
-      bodies, [](dBodyID other) { return other != nullptr && dBodyIsEnabled(other) != 0; });
+bool hasJointWithBody(const VehicleBodies& bodies) {
+  return anyOuterJoint(bodies, [](dBodyID other) { return other != nullptr; });
 }
 
 void GuardContacts::add(const Guard& guard, dJointGroupID group, dBodyID chassis,
-                        const VehicleState& state, double time) {
+                        const VehicleState& state, const Step& step) {
   if (count_ == loads_.size()) return;
   GuardLoad& load = loads_[count_];
   load.barrier = guard.barrier;
   load.wall = guard.wall;
   load.arm = state.toWorld(guard.contact.arm);
   load.contact = state.massCentre + load.arm;
-  load.normal = state.toWorld(guard.contact.normal);
+  // In the yaw plane of a vehicle that leans the normal points up or down, and would lift it.
+  const Eigen::Vector3d inYawPlane = state.toWorld(guard.contact.normal);
+  load.normal = Eigen::Vector3d(inYawPlane.x(), inYawPlane.y(), 0.0).normalized();
   load.velocity = state.velocityAt(load.arm);
+  const Eigen::Vector3d unpushed =
+      state.toWorld(guard.contact.velocity) + state.up().dot(state.velocity) * state.up();
+  const double room = guard.contact.room / load.normal.dot(inYawPlane);
+  const double leastSpeed = load.normal.dot(unpushed) - room / step.size;
   load.force.setZero();
 
   dContact contact{};
@@ -72,7 +77,7 @@ void GuardContacts::add(const Guard& guard, dJointGroupID group, dBodyID chassis
   contact.surface.soft_erp = 0.0;
   contact.surface.soft_cfm = constraintForceMixing;
   contact.surface.mu = guard.friction >= leastFriction ? guard.friction : 0.0;
-  contact.surface.motionN = guard.contact.leastSpeed - mostDither * dither(time, count_);
+  contact.surface.motionN = leastSpeed - mostDither * dither(step.time, count_);
   for (int k = 0; k < 3; ++k) {
     contact.geom.pos[k] = load.contact[k];
     contact.geom.normal[k] = load.normal[k];

@@ -16,8 +16,9 @@ namespace bumper {
 /// among them. A contact that the application made for the coming step is such a joint.
 bool hasOuterJoint(const VehicleBodies& bodies);
 
-/// Whether such a joint leads to a body that is awake.
-bool isHeldByAwakeBody(const VehicleBodies& bodies);
+/// Whether such a joint leads to another body: it may wake them in the coming step, as may those
+/// that it hangs together with.
+bool hasJointWithBody(const VehicleBodies& bodies);
 
 /// One vehicle's guard contacts. A force pulse is worked out for a vehicle that nothing else
 /// touches. Where joints act on it too, its guard contacts make the walls a part of the world's own
@@ -33,10 +34,16 @@ class GuardContacts {
     double friction = 0.0;  ///< Coulomb's coefficient
   };
 
-  /// Adds one to `group`, at the height of the mass centre, until it is emptied; no more than
-  /// SpeculativeContacts::most. `time` is that of the step, s.
+  struct Step {
+    double time = 0.0;  ///< when it begins, s
+    double size = 0.0;  ///< s
+  };
+
+  /// Adds one to `group` for a step, at the height of the mass centre; no more than
+  /// SpeculativeContacts::most. Its normal is level, whatever the vehicle's lean.
   void add(const Guard& guard, dJointGroupID group, dBodyID chassis, const VehicleState& state,
-           double time);
+           const Step& step);
+  [[nodiscard]] bool isEmpty() const { return count_ == 0; }
 
   /// What they did in the world's last step.
   [[nodiscard]] std::span<GuardLoad> loads();

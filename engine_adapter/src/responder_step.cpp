@@ -126,8 +126,8 @@ void Responder::Implementation::reconsiderLastStep(std::span<Vehicle* const> som
   if (repeated) time -= lastStep;
 }
 
-// Walls that broke are left out until the outline has left them, and those whose long force pulse
-// runs until it ends.
+// Walls that broke are left out until the outline has left them; those whose long force pulse runs
+// are not answered until it ends.
 void Responder::Implementation::leaveOutPassages(Vehicle& vehicle) {
   std::erase_if(vehicle.memory.passages, [&](const Passage& passage) {
     const Barrier& barrier = *barriers[static_cast<std::size_t>(passage.barrier.value)];
@@ -141,7 +141,15 @@ void Responder::Implementation::leaveOutPassages(Vehicle& vehicle) {
             : std::any_of(segments.begin(), segments.end(), [&](const WallSegment& wall) {
                 return isOfIt(wall) && findTouch(vehicle.query.outline(), {}, wall).has_value();
               });
-    if (goesOn) std::erase_if(segments, isOfIt);
+    if (goesOn && passage.until > 0.0) {
+      for (WallSegment& wall : segments) {
+        if (!isOfIt(wall)) continue;
+        wall.entered = true;
+        wall.depth = std::max(wall.depth, passage.depth);
+      }
+    } else if (goesOn) {
+      std::erase_if(segments, isOfIt);
+    }
     return !goesOn;
   });
 }
@@ -177,8 +185,14 @@ void Responder::Implementation::collectWalls(Vehicle& vehicle, const VehicleStat
 void Responder::Implementation::addGuards(Vehicle& vehicle, const VehicleState& state,
                                           const PlanarMotion& motion, const PlanarMotion& after,
                                           double h) {
-  const double near = nearDistance(motion.velocity.norm(), h);
-  for (const SpeculativeContact& contact : collision.speculativeContacts(motion, after, near, h)) {
+  // What is near at the step's end was near at its start, so that it does not matter whether what
+  // is further away was looked at.
+  const double speed = motion.velocity.norm();
+  const double way = h * (speed + std::abs(motion.yawRate) * vehicle.query.outline().radius());
+  const double near = nearDistance(speed, h);
+  const double distance = std::max(near - way, 0.5 * near);
+  for (const SpeculativeContact& contact :
+       collision.speculativeContacts(motion, after, distance, h)) {
     const BarrierWall hit = vehicle.nearby.at(contact.wall);
     const ResponseSettings& settings = *contact.settings;
     const bool slides =
@@ -190,7 +204,7 @@ void Responder::Implementation::addGuards(Vehicle& vehicle, const VehicleState& 
          .wall = hit.wall,
          .friction =
              slides ? settings.friction(attackDirection(impact, motion, settings.angle)) : 0.0},
-        guardJoints.get(), vehicle.bodies.chassis(), state, time);
+        guardJoints.get(), vehicle.bodies.chassis(), state, {.time = time, .size = h});
     hasGuards = true;
   }
 }
@@ -212,7 +226,10 @@ PlanarMotion Responder::Implementation::answerCuts(Vehicle& vehicle, const Vehic
     if (contactTime > 0.0) {
       pulse.addLong(each.response.impulse, each.time, contactTime);
       vehicle.memory.passages.push_back(
-          {.barrier = barrier.id(), .settings = number, .until = time + each.time + contactTime});
+          {.barrier = barrier.id(),
+           .settings = number,
+           .until = time + each.time + contactTime,
+           .depth = enteredDepth(each.response.approachSpeed, contactTime)});
     } else {
       pulse.add(each.response.impulse, each.time, h);
     }
@@ -256,7 +273,7 @@ void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
   VehicleMemory& memory = vehicle.memory;
   vehicle.freeSpace.leave();
   const Expectation expected = std::exchange(memory.expectation, {});
-  if (vehicle.bodies.areAsleep() && !isHeldByAwakeBody(vehicle.bodies)) {
+  if (vehicle.bodies.areAsleep() && !hasJointWithBody(vehicle.bodies)) {
     vehicle.guards.forget();
     return;
   }
@@ -304,7 +321,8 @@ void Responder::Implementation::stepVehicle(Vehicle& vehicle, double h) {
     const PlanarMotion after = answerCuts(vehicle, state, motion, h);
     if (isHeld && options.guardContacts) addGuards(vehicle, state, motion, after, h);
   }
-  if (memory.pulse.isEmpty()) return;
+  // With guards alone the world's step is watched as well.
+  if (memory.pulse.isEmpty() && vehicle.guards.isEmpty()) return;
   give(vehicle, state, h);
   if (isHeld && memory.delivery.any) {
     expect(state, memory.delivery.impulse, h, memory.expectation);
@@ -327,10 +345,6 @@ std::span<const ImpactEvent> Responder::step(double h) {
   Implementation& self = *implementation_;
   self.events.clear();
   self.issues = step_issue::none;
-  if (self.hasGuards) {
-    dJointGroupEmpty(self.guardJoints.get());
-    self.hasGuards = false;
-  }
   // Those that are not certainly away from all walls. One that is has nothing to say, and had
   // nothing to say before.
   Vehicle** last = self.active.data();
@@ -342,6 +356,10 @@ std::span<const ImpactEvent> Responder::step(double h) {
   if (!(h > 0.0 && h < std::numeric_limits<double>::infinity())) {
     if (h != 0.0) self.issues = step_issue::invalid_step;
     return {};
+  }
+  if (self.hasGuards) {
+    dJointGroupEmpty(self.guardJoints.get());
+    self.hasGuards = false;
   }
   if (!active.empty()) self.stepAll(active, h);
   self.time += h;

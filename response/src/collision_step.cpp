@@ -68,10 +68,10 @@ WallSegment oriented(const WallSegment& wall, const Vector2& centre) {
 
 bool continues(const WallSegment& wall, const WallSegment& piece) {
   if (std::abs(cross(wall.normal, piece.normal)) > mergeSine) return false;
-  if (wall.settings != piece.settings) return false;
+  if (wall.settings != piece.settings || wall.entered != piece.entered) return false;
   const bool breaks =
       wall.settings->law == Law::energy && wall.settings->energyRoot == EnergyRoot::break_through;
-  if (breaks && wall.group != piece.group) return false;
+  if ((breaks || wall.entered) && wall.group != piece.group) return false;
   if (wall.isPost() || piece.isPost() || wall.solid != piece.solid) return false;
   if (wall.normal.dot(piece.normal) < 0.0) return false;
   if (std::abs(wall.normal.dot(piece.start - wall.start)) > mergeOffset) return false;
@@ -139,7 +139,7 @@ void CollisionStep::mergeWalls(std::span<const WallSegment> walls, const Vector2
       return continues(candidate.segment, piece);
     });
     if (wall == walls_.end()) {
-      walls_.push_back({.segment = piece});
+      walls_.push_back({.segment = piece, .passed = piece.entered});
       continue;
     }
     WallSegment& whole = wall->segment;
@@ -154,6 +154,7 @@ void CollisionStep::mergeWalls(std::span<const WallSegment> walls, const Vector2
 bool CollisionStep::isShielded(const Overlap& end) const {
   const Vector2 place = end.deepest * turnedLeft(end.normal) + end.offset * end.normal;
   return std::any_of(walls_.begin(), walls_.end(), [&](const Wall& wall) {
+    if (wall.segment.entered) return false;
     const auto leadsIn = [&](const Vector2& from, const Vector2& to) {
       const double distance = (from - place).norm();
       return distance <= jointWidth && distance < (to - place).norm() &&
@@ -254,7 +255,8 @@ CollisionStep::Approach CollisionStep::middleOfChain(const Wall& struck, double 
     for (std::size_t length = 1; length < walls_.size(); ++length) {
       const Vector2 joint = forward ? last->segment.end : last->segment.start;
       const auto next = std::find_if(walls_.begin(), walls_.end(), [&](const Wall& wall) {
-        return &wall != last && wall.segment.settings == struck.segment.settings &&
+        return &wall != last && !wall.segment.entered &&
+               wall.segment.settings == struck.segment.settings &&
                (joint - (forward ? wall.segment.start : wall.segment.end)).norm() <= jointWidth &&
                first.normal.dot(facing(wall)) > 0.0 &&
                std::abs(cross(first.normal, facing(wall))) < chainSine;
@@ -452,7 +454,8 @@ CollisionStep::Settled CollisionStep::settle(double time) {
 Vector2 CollisionStep::easeOut(double h) const {
   Vector2 velocity = Vector2::Zero();
   for (const Wall& wall : walls_) {
-    if (!wall.touched || wall.hidden || wall.segment.settings->method == Method::paper) continue;
+    if (!wall.touched || wall.hidden || wall.passed) continue;
+    if (wall.segment.settings->method == Method::paper) continue;
     const double depth = wall.overlap.depth - easeOutDepth;
     if (depth <= 0.0) continue;
     const double wanted = std::min(easeOutShare * depth / h, maxEaseOut);
@@ -523,17 +526,19 @@ CollisionStep::NextTouch CollisionStep::nextTouch(double from, double until) {
 std::span<const SpeculativeContact> CollisionStep::speculativeContacts(const PlanarMotion& motion,
                                                                        const PlanarMotion& after,
                                                                        double distance, double h) {
-  speculative_.clear();
+  speculative_.begin(outline_, motion, after, distance, h);
   motion_ = motion;
   lookAround(0.0);
+  const double fastest = motion.velocity.norm() + std::abs(motion.yawRate) * outline_.radius();
   for (const Wall& wall : walls_) {
     const ResponseSettings& settings = *wall.segment.settings;
-    const bool mayBeEntered =
-        settings.method == Method::paper || settings.contactTime > 0.0 ||
-        (settings.law == Law::energy && settings.energyRoot == EnergyRoot::break_through);
-    if (mayBeEntered || wall.hidden) continue;
-    addSpeculativeContacts(outline_, motion, after, wall.segment,
-                           wall.touched ? &wall.overlap : nullptr, distance, h, speculative_);
+    const bool breaks =
+        settings.law == Law::energy && settings.energyRoot == EnergyRoot::break_through;
+    if (settings.method == Method::paper || breaks || wall.hidden) continue;
+    // A long force pulse lets the vehicle in.
+    const double depth =
+        wall.segment.entered ? wall.segment.depth : enteredDepth(fastest, settings.contactTime);
+    speculative_.addWall(wall.segment, wall.touched ? &wall.overlap : nullptr, depth);
   }
   return speculative_.all();
 }

@@ -10,6 +10,13 @@ namespace {
 // By which a point may pass its wall, m: more than what rounds in a free motion.
 constexpr double allowance = 1e-6;
 
+// What slides along a wall or its end in a free motion may be so deep in it when the step is over,
+// m: a corner, and an end in a side.
+constexpr double slidingCorner = 1e-4;
+constexpr double slidingEnd = 0.05;
+
+constexpr std::size_t thirds = 3;
+
 // A wall's end or a post before one side of the outline.
 struct Facing {
   Vector2 out;        // the side's normal outwards, in the vehicle's frame
@@ -28,69 +35,111 @@ std::array<Facing, 4> facings(const Outline& outline, const Vector2& place) {
            {{0.0, -1.0}, -place.y() - outline.halfWidth, ahead, half}}};
 }
 
-}  // namespace
-
-void SpeculativeContacts::add(const SpeculativeContact& contact) {
-  // The place behind all that are no further.
-  std::size_t place = count_;
-  while (place > 0 && contact.gap < contacts_[place - 1].gap) --place;
-  if (place == most) return;
-  if (count_ < most) ++count_;
-  for (std::size_t k = count_ - 1; k > place; --k) contacts_[k] = contacts_[k - 1];
-  contacts_[place] = contact;
+// Where two walls meet each has an end there.
+bool isOne(const SpeculativeContact& a, const SpeculativeContact& b) {
+  constexpr double closer = 1e-3;   // m
+  constexpr double cosine = 0.999;  // of the angle between their normals
+  return (a.arm - b.arm).cwiseAbs().maxCoeff() < closer && a.normal.dot(b.normal) > cosine;
 }
 
-void addSpeculativeContacts(const Outline& outline, const PlanarMotion& start,
-                            const PlanarMotion& end, const WallSegment& wall, const Overlap* touch,
-                            double distance, double step, SpeculativeContacts& contacts) {
-  const Placement from = start.placement();
-  const Placement to = end.placement();
-  // What carries the vehicle from one to the other, as an engine does.
-  const Vector2 velocity = (to.position - from.position) / step;
-  const double yawRate = (end.yaw - start.yaw) / step;
-  const auto add = [&](const Vector2& normal, const Vector2& arm, double gap) {
-    const double speed = normal.dot(velocity + yawRate * turnedLeft(arm));
-    contacts.add({.wall = wall.id,
-                  .settings = wall.settings,
-                  .normal = normal,
-                  .arm = arm,
-                  .gap = gap,
-                  .leastSpeed = speed - (std::max(gap, 0.0) + allowance) / step});
-  };
+std::size_t thirdOf(const Facing& facing) {
+  const double share = 0.5 * (facing.fromMiddle / facing.halfLength + 1.0);
+  return static_cast<std::size_t>(std::clamp(share, 0.0, 0.99) * thirds);
+}
 
+}  // namespace
+
+void SpeculativeContacts::begin(const Outline& outline, const PlanarMotion& start,
+                                const PlanarMotion& end, double distance, double step) {
+  outline_ = outline;
+  from_ = start.placement();
+  to_ = end.placement();
+  carrying_ = end;
+  carrying_.velocity = (end.position - start.position) / step;
+  carrying_.yawRate = (end.yaw - start.yaw) / step;
+  distance_ = distance;
+  count_ = 0;
+}
+
+void SpeculativeContacts::add(std::size_t place, SpeculativeContact contact, double depth) {
+  contact.velocity = velocityAt(carrying_, contact.arm);
+  contact.room = std::max(contact.gap + depth, 0.0) + allowance;
+  std::size_t same = 0;
+  std::size_t farthest = count_;
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (isOne(contacts_[i], contact)) {
+      if (contact.gap < contacts_[i].gap) contacts_[i] = contact;
+      return;
+    }
+    if (places_[i] != place) continue;
+    ++same;
+    if (farthest == count_ || contacts_[i].gap > contacts_[farthest].gap) farthest = i;
+  }
+  if (same < perPlace) {
+    places_[count_] = place;
+    contacts_[count_++] = contact;
+  } else if (contact.gap < contacts_[farthest].gap) {
+    contacts_[farthest] = contact;
+  }
+}
+
+void SpeculativeContacts::addEnd(const WallSegment& wall, const Vector2& wallEnd, double depth) {
+  const std::array<Facing, 4> sides = facings(outline_, to_.local(wallEnd));
+  const auto nearest = std::max_element(
+      sides.begin(), sides.end(), [](const Facing& a, const Facing& b) { return a.gap < b.gap; });
+  for (std::size_t side = 0; side < sides.size(); ++side) {
+    const Facing& facing = sides[side];
+    const double gap = facing.gap - wall.radius;
+    // What is in the outline came in over the nearest side.
+    const double deepest = &facing == nearest ? depth + slidingEnd : 0.0;
+    if (gap < -deepest || gap > distance_) continue;
+    if (std::abs(facing.fromMiddle) > facing.halfLength + touchTolerance) continue;
+    const Vector2 normal = -to_.turned(facing.out);
+    add(4 + thirds * side + thirdOf(facing),
+        {.wall = wall.id,
+         .settings = wall.settings,
+         .normal = normal,
+         .arm = wallEnd - to_.position + facing.gap * normal,
+         .gap = gap},
+        depth);
+  }
+}
+
+void SpeculativeContacts::addWall(const WallSegment& wall, const Overlap* touch, double depth) {
   const bool byFace = touch != nullptr && !touch->byEnd;
   if (!wall.isPost()) {
-    const Overlap line = byFace ? *touch : lineOf(wall, from.position);
+    const Overlap line = byFace ? *touch : lineOf(wall, from_.position);
     const Vector2 tangent = turnedLeft(line.normal);
-    for (const Vector2& corner : outline.corners()) {
-      const Vector2 arm = to.turned(corner);
-      const Vector2 place = to.position + arm;
+    const std::array<Vector2, 4> corners = outline_.corners();
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Vector2 arm = to_.turned(corners[k]);
+      const Vector2 place = to_.position + arm;
       const double gap = line.normal.dot(place) - line.offset;
       // One that is behind the wall, and the wall not in the outline, has come round its end.
-      if (gap > distance || (!byFace && gap < -allowance)) continue;
+      if (gap > distance_ || (!byFace && gap < -(depth + slidingCorner))) continue;
       const double along = tangent.dot(place);
       if (along < line.start - touchTolerance || along > line.end + touchTolerance) continue;
-      add(line.normal, arm, gap);
+      add(k,
+          {.wall = wall.id,
+           .settings = wall.settings,
+           .normal = line.normal,
+           .arm = arm,
+           .gap = gap},
+          depth);
     }
   }
-
-  const auto addEnd = [&](const Vector2& wallEnd) {
-    for (const Facing& facing : facings(outline, to.local(wallEnd))) {
-      const double gap = facing.gap - wall.radius;
-      if (gap < -allowance || gap > distance) continue;
-      if (std::abs(facing.fromMiddle) > facing.halfLength + touchTolerance) continue;
-      const Vector2 normal = -to.turned(facing.out);
-      add(normal, wallEnd - to.position + facing.gap * normal, gap);
-    }
-  };
   if (touch != nullptr && touch->byEnd) {
     // Wherever on the outline it is when the step is over.
-    const Vector2 arm = to.turned(from.turnedBack(firstPoint(from.position, *touch).arm));
-    add(touch->normal, arm, std::min(-touch->depth, 0.0));
-    return;
+    add(4 + 4 * thirds,
+        {.wall = wall.id,
+         .settings = wall.settings,
+         .normal = touch->normal,
+         .arm = to_.turned(from_.turnedBack(firstPoint(from_.position, *touch).arm)),
+         .gap = std::min(-touch->depth, 0.0)},
+        depth);
   }
-  addEnd(wall.start);
-  if (!wall.isPost()) addEnd(wall.end);
+  addEnd(wall, wall.start, depth);
+  if (!wall.isPost()) addEnd(wall, wall.end, depth);
 }
 
 }  // namespace bumper

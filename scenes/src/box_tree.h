@@ -57,9 +57,8 @@ class BoxTree {
     const Four x = (node.lowX - query.high.x()).max(query.low.x() - node.highX).max(0.0F);
     const Four y = (node.lowY - query.high.y()).max(query.low.y() - node.highY).max(0.0F);
     const Four distance2 = x * x + y * y;
-    const Four excess = (distance2 - query.reach2)
-                            .max(node.lowZ - query.high.z())
-                            .max(query.low.z() - node.highZ);
+    const Four excess =
+        (distance2 - query.reach2).max(node.lowZ - query.high.z()).max(query.low.z() - node.highZ);
     if (excess.minCoeff() > 0.0F) return;
     for (Eigen::Index k = 0; k < 4; ++k) {
       if (excess[k] > 0.0F || !enter(distance2[k], node.lowZ[k], node.highZ[k])) continue;

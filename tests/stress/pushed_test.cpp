@@ -415,9 +415,9 @@ TEST(Pushed, ATrailerDoesNotPushItsTractorIn) {
     const Situation s{.step = steps[static_cast<std::size_t>(i) % 4],
                       .stepper = i % 8 < 4 ? Stepper::quick : Stepper::exact};
     Hitch hitch{.frontMass = uniform(random, 1000.0, 10000.0),
-                      .rearMass = 0.0,
-                      .speed = uniform(random, 5.0, 30.0),
-                      .angle = uniform(random, 10.0, 90.0)};
+                .rearMass = 0.0,
+                .speed = uniform(random, 5.0, 30.0),
+                .angle = uniform(random, 10.0, 90.0)};
     // At more than eight times the mass QuickStep's iterations no longer reach the joint.
     hitch.rearMass = uniform(random, 0.05, 8.0) * hitch.frontMass;
     const double past = crash(hitch, Against::bumper, s);

@@ -17,6 +17,7 @@ struct Passage {
   BarrierId barrier;
   int settings = 0;    ///< number of the settings in the barrier
   double until = 0.0;  ///< end of the pulse; 0 if they broke
+  double depth = 0.0;  ///< how deep the pulse lets the vehicle in, m
 };
 
 /// A contact that has begun and not ended.

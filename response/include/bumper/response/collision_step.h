@@ -45,6 +45,10 @@ struct StepOutcome {
   bool settled = true;
 };
 
+/// How deep a vehicle that approaches a wall so fast, m/s, goes into it at most while a force pulse
+/// of `contactTime` seconds turns it round, m.
+inline double enteredDepth(double speed, double contactTime) { return 0.5 * speed * contactTime; }
+
 /// One vehicle, one step: walls nearby in, impacts out. Knows no engine. Holds only scratch memory
 /// that is used again from step to step, so one object serves any number of vehicles in turn.
 class CollisionStep {
@@ -72,8 +76,8 @@ class CollisionStep {
 
   /// Of the step that was resolved last: the points of the outline that may meet a wall with which
   /// they are no further apart than `distance` at its end, m, for the engine's own solver. `motion`
-  /// and `h` as for resolve(), `after` as it came out. Walls into which a vehicle may go are left
-  /// out: those that break, those with a contact time, those of Method::paper. Valid until the next
+  /// and `h` as for resolve(), `after` as it came out. Walls with a contact time let it in by
+  /// enteredDepth(); those that break and those of Method::paper are left out. Valid until the next
   /// call.
   std::span<const SpeculativeContact> speculativeContacts(const PlanarMotion& motion,
                                                           const PlanarMotion& after,

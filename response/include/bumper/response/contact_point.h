@@ -77,6 +77,10 @@ struct WallSegment {
   int id = -1;
   /// The caller's number for what breaks as one.
   int group = 0;
+  /// A long force pulse of this wall runs: it is not answered, and the outline may be as deep in it
+  /// as `depth`, m.
+  bool entered = false;
+  double depth = 0.0;
   /// How this wall answers; not owned, never null when it reaches a collision step.
   const ResponseSettings* settings = nullptr;
 

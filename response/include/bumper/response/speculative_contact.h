@@ -17,38 +17,50 @@ struct SpeculativeContact {
   Vector2 normal = Vector2::Zero();            ///< unit, out of the wall into the vehicle
   /// Mass centre to the point of the outline, m, as the vehicle stands at the step's end.
   Vector2 arm = Vector2::Zero();
-  double gap = 0.0;  ///< between them at the step's end, along the normal, m; negative: so deep
-  /// The least speed that the point must have along the normal, m/s: so that it does not pass the
-  /// wall, or is no deeper than it would be if nothing else pushed, by more than a micrometre.
-  double leastSpeed = 0.0;
+  Vector2 velocity = Vector2::Zero();  ///< of the point in this step if nothing else pushes, m/s
+  double gap = 0.0;   ///< between them at the step's end, along the normal, m; negative: so deep
+  double room = 0.0;  ///< by how much nearer the point may come than that, m, > 0
+
+  /// The least speed that the point must have along the normal in the step, m/s.
+  [[nodiscard]] double leastSpeed(double step) const { return normal.dot(velocity) - room / step; }
 };
 
-/// The nearest of these, by gap; holds a few, and no more than `most`.
+/// The points in which an outline may meet walls: its corners and their faces, their ends and posts
+/// and its sides. Of these the two nearest for each corner and each third of a side, so that
+/// however many pieces a wall has, no part of the outline is left open.
+///
+/// What is demanded is linear about the pose at the step's end. So it is without effect on a
+/// vehicle that nothing pushes, at whatever speed and yaw rate; and turning further lifts a corner
+/// off the wall.
 class SpeculativeContacts {
  public:
-  static constexpr std::size_t most = 8;
+  /// So many for each corner, each third of a side, and for what touches by a wall's end.
+  static constexpr std::size_t perPlace = 2;
+  static constexpr std::size_t most = perPlace * (4 + 4 * 3 + 1);
 
-  void clear() { count_ = 0; }
-  void add(const SpeculativeContact& contact);
+  /// For a step of `step` seconds. `start` is the vehicle's motion at its start, `end` that at its
+  /// end if nothing but walls acts. `distance`, m, is the largest gap of interest.
+  void begin(const Outline& outline, const PlanarMotion& start, const PlanarMotion& end,
+             double distance, double step);
+  /// `touch` is what findTouch() says at the start, or null. `depth`, m, is how deep the outline
+  /// may be in this wall.
+  void addWall(const WallSegment& wall, const Overlap* touch, double depth);
   [[nodiscard]] std::span<const SpeculativeContact> all() const {
     return {contacts_.data(), count_};
   }
 
  private:
+  void add(std::size_t place, SpeculativeContact contact, double depth);
+  void addEnd(const WallSegment& wall, const Vector2& wallEnd, double depth);
+
+  Outline outline_{VehicleParameters{}};
+  Placement from_;
+  Placement to_;
+  PlanarMotion carrying_;  // from one to the other, as an engine does
+  double distance_ = 0.0;
   std::array<SpeculativeContact, most> contacts_{};
+  std::array<std::size_t, most> places_{};
   std::size_t count_ = 0;
 };
-
-/// Adds the points in which an outline may meet one wall: its corners and the wall's face, the
-/// wall's ends or post and its sides. `start` is the vehicle's motion at the step's start, `end`
-/// that at its end if nothing but this wall and others like it acts: what pushes besides is the
-/// engine's to say. `touch` is what findTouch() says at the start, or null; `distance`, m, is the
-/// largest gap of interest.
-///
-/// Demands are linear about the pose at the end. So they are without effect on a vehicle that
-/// nothing pushes, at whatever speed and yaw rate; and turning further lifts a corner off the wall.
-void addSpeculativeContacts(const Outline& outline, const PlanarMotion& start,
-                            const PlanarMotion& end, const WallSegment& wall, const Overlap* touch,
-                            double distance, double step, SpeculativeContacts& contacts);
 
 }  // namespace bumper
