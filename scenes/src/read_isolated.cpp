@@ -34,14 +34,20 @@ std::filesystem::path findProgram() {
     throw Error(std::string(programVariable) + " is \"" + given + "\", which is not a program");
   }
   std::error_code error;
-  std::filesystem::path beside =
-      std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / programName;
+  // A build has its programs side by side; an installation may have been moved as a whole.
+  const std::filesystem::path here =
+      std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  const std::filesystem::path beside = here / programName;
   if (!error && access(beside.c_str(), X_OK) == 0) return beside;
-  std::filesystem::path installed = std::filesystem::path(BUMPER_LIBEXEC_DIRECTORY) / programName;
+  const std::filesystem::path moved = here.parent_path() / "libexec" / programName;
+  if (!error && access(moved.c_str(), X_OK) == 0) return moved;
+  const std::filesystem::path installed =
+      std::filesystem::path(BUMPER_LIBEXEC_DIRECTORY) / programName;
   if (access(installed.c_str(), X_OK) == 0) return installed;
   throw Error(std::string("the program ") + programName +
               ", which LoadOptions::isolate needs, is neither " + beside.string() + " nor " +
-              installed.string() + ": set " + programVariable + " to where it is");
+              moved.string() + " nor " + installed.string() + ": set " + programVariable +
+              " to where it is");
 }
 
 class Descriptor {
