@@ -10,10 +10,10 @@ struct WorldSteps {
   double first = 0.0;  ///< s, of the first: the forces added before act in that one only
 };
 
-/// Tells what the world's steps were, which ODE itself does not. A body of its own, at rest for the
-/// application, does it: no gravity, no damping, no geom in a space, far from nothing since nothing
-/// can touch it. It moves at 1 m/s, so its way is the time; and a force of 1 N on its 1 kg, which
-/// ODE clears after one step, makes its speed the first step's size.
+/// Tells what the world's steps were, which ODE itself does not: by a body of its own, which
+/// nothing touches, without gravity and damping. It moves at 1 m/s, so its way is the time; and a
+/// force of 1 N on its 1 kg, which ODE clears after one step, makes its speed aside that step's
+/// size.
 class WorldClock {
  public:
   explicit WorldClock(dWorldID world);

@@ -79,6 +79,10 @@ inline constexpr unsigned kinematic = 128;  ///< a body of a vehicle was made ki
 /// Vehicle frame: x forward, y left, z up in the chassis body's axes, origin at the mass centre of
 /// the chassis and its linked bodies. World: right-handed, z up, metres, double precision.
 ///
+/// Where joints or contacts act on a vehicle too, step() adds contact joints with the walls nearby
+/// for one step (ResponderOptions::guardContacts), in a group of its own. While it waits for the
+/// world's step it moves a body of its own there, to know how long that was.
+///
 /// Barriers stand still between calls of updateBarrier(): a scene, or a geom of the application's.
 /// Nothing here touches data, callbacks or collision bits of the application's geoms and bodies.
 ///
