@@ -424,6 +424,7 @@ void CollisionStep::answerTogether(double time) {
     response.energyRatio = energy > 0.0 ? kept / energy : 1.0;
     energy = kept;
     record(*wall, at, time, response);
+    impacts_.back().isPartOfNext = !last;
   }
   ++answers_;
 }

@@ -94,19 +94,23 @@ void check(const VehicleParameters& vehicle, const PlanarMotion& start, double h
     time = until;
     if (leadsThrough(before, motion.position, plan)) faults.through.note(describe);
   };
+  double before = -1.0;  // energy, of an impulse that is told in parts before the first of them
   for (const StepImpact& each : outcome.impacts) {
     if (!(each.time >= time && each.time <= h)) faults.path.note(describe);
     fly(each.time, {});
-    const double before = yawPlaneEnergy(motion, vehicle.mass, vehicle.yawInertia);
+    if (before < 0.0) before = yawPlaneEnergy(motion, vehicle.mass, vehicle.yawInertia);
     const PlanarMotion next =
         afterImpulse(motion, each.response.impulse, vehicle.mass, vehicle.yawInertia);
     if (!isFinite(next) || !std::isfinite(each.response.contact.impulse.normal)) {
       faults.notFinite.note(describe);
     }
-    const double created =
-        before > 0.0 ? yawPlaneEnergy(next, vehicle.mass, vehicle.yawInertia) / before - 1.0 : 0.0;
-    faults.worstEnergy = std::max(faults.worstEnergy, created);
-    if (created > energyTolerance) faults.energy.note(describe);
+    if (!each.isPartOfNext) {
+      const double after = yawPlaneEnergy(next, vehicle.mass, vehicle.yawInertia);
+      const double created = before > 0.0 ? after / before - 1.0 : 0.0;
+      faults.worstEnergy = std::max(faults.worstEnergy, created);
+      if (created > energyTolerance) faults.energy.note(describe);
+      before = -1.0;
+    }
     motion.velocity = next.velocity;
     motion.yawRate = next.yawRate;
     mostInside = std::max(mostInside, slidingDepth(vehicle, motion, h));

@@ -288,7 +288,6 @@ TEST(Pushed, ALorryDoesNotRamAParkedCarThrough) {
     sum += std::max(past, 0.0);
     sumOfJoints += std::max(byJoints, 0.0);
     EXPECT_LE(road.mostEnergy, 1.001 * joints.mostEnergy) << s;
-    EXPECT_LE(road.impacts, 20);
     deepest.include(past);
     deepestOfJoints.include(byJoints);
   }

@@ -24,6 +24,9 @@ struct StepImpact {
   /// A part of a contact that lasts within the step: an end of a wall that a turning side slides
   /// along.
   bool slides = false;
+  /// The next one and this are parts of one impulse, which ended the approach at several points at
+  /// once: what holds of an impulse's energy holds of them together.
+  bool isPartOfNext = false;
 };
 
 /// A velocity and yaw rate for one step only. It eases an outline out of walls that it stands in,
