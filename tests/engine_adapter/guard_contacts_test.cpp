@@ -14,6 +14,7 @@
 
 #include "box_car.h"
 #include "bumper/engine_adapter/responder.h"
+#include "bumper/response/collision_step.h"
 #include "bumper/scenes/paper_scenes.h"
 #include "hinge2_car.h"
 #include "ode_world.h"
@@ -233,6 +234,84 @@ TEST(GuardContacts, AlsoForAParkedCarThatSleeps) {
   }
   EXPECT_GT(deepest, -0.04);
   EXPECT_LE(deepest, 0.02);
+}
+
+// ODE wakes all that hang together in one step, also the one that touches nothing that is awake.
+TEST(GuardContacts, AlsoForTheFirstOfAChainThatSleeps) {
+  OdeWorld ode;
+  Responder responder(ode.world);
+  responder.addBarrier(wall());
+  const Eigen::Matrix3d facing =
+      Eigen::AngleAxisd(-0.5 * 3.141592653589793, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  std::array<BoxCar, 2> cars{BoxCar(ode.world, ode.space), BoxCar(ode.world, ode.space)};
+  for (std::size_t i = 0; i < cars.size(); ++i) {
+    cars[i].place({0.0, 2.1 + 0.02 + 4.599 * static_cast<double>(i), 0.55}, facing);
+    responder.addVehicle(cars[i].body, cars[i].parameters);
+    dBodyDisable(cars[i].body);
+  }
+  const dBodyID ram = dBodyCreate(ode.world);
+  dMass mass;
+  dMassSetBoxTotal(&mass, 20e3, 2.0, 4.0, 0.7);
+  dBodySetMass(ram, &mass);
+  dGeomSetBody(dCreateBox(ode.space, 2.0, 4.0, 0.7), ram);
+  dBodySetPosition(ram, 0.0, 2.1 + 0.02 + 4.6 + 2.5 + 2.0 + 0.1, 0.55);
+  dBodySetLinearVel(ram, 0.0, -15.0, 0.0);
+  double deepest = -1.0;
+  for (int i = 0; i < 60; ++i) {
+    ode.step(0.0167, &responder, [&] { responder.step(0.0167); });
+    deepest = std::max(deepest, 2.1 - dBodyGetPosition(cars[0].body)[1]);
+  }
+  EXPECT_GT(deepest, -0.01);
+  EXPECT_LE(deepest, 0.05);
+}
+
+// A long force pulse lets a vehicle in, and what pushes further; without guards it drives through.
+TEST(GuardContacts, HoldAlsoWhereAPulseLasts) {
+  ResponseSettings slow;
+  slow.contactTime = 0.05;
+  Facing run({}, 0.05, 0.0, {.response = slow});
+  run.addMotor(towards, 30.0 * run.car.parameters.mass);
+  double deepest = -1.0;
+  for (int i = 0; i < 1000; ++i) {
+    run.run(0.5 * h);
+    deepest = std::max(deepest, run.depth());
+  }
+  // It comes at √(2 · 30 · 0.05) m/s.
+  EXPECT_LE(deepest, 2.0 * enteredDepth(std::sqrt(3.0), slow.contactTime));
+}
+
+// A pause, and a step too many, while they do all the work.
+TEST(GuardContacts, OutliveAPauseAndAreReplacedByAStepTooMany) {
+  Facing run;
+  run.addMotor(towards, 30.0 * run.car.parameters.mass);
+  for (int i = 0; i < 400; ++i) {
+    run.responder.step(h);
+    if (i % 3 == 0) run.responder.step(0.0);
+    if (i % 5 == 4) {
+      run.responder.step(h);
+      EXPECT_EQ(run.responder.issues(run.vehicle), step_issue::repeated_step) << i;
+    }
+    dWorldStep(run.ode.world, h);
+  }
+  EXPECT_LE(run.depth(), 2e-4);
+  EXPECT_NEAR(run.responder.time(), 400 * h, 1e-9);
+}
+
+// Pressed against a wall a vehicle that leans is not lifted by its guards.
+TEST(GuardContacts, AreLevelWhateverTheLean) {
+  Facing run;
+  const Eigen::Matrix3d axes =
+      Eigen::AngleAxisd(-0.5 * 3.141592653589793, Eigen::Vector3d::UnitZ()).toRotationMatrix() *
+      Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  run.car.place({0.0, 2.1 * std::cos(0.2) + 0.05, 0.55}, axes);
+  run.addMotor(towards, 1e4);
+  run.run(0.3);
+  run.responder.step(h);
+  const SavedState state = run.responder.save();
+  ASSERT_FALSE(state.vehicles.front().guards.empty());
+  for (const GuardLoad& load : state.vehicles.front().guards) {
+    EXPECT_NEAR((load.normal - Eigen::Vector3d::UnitY()).norm(), 0.0, 1e-9);
+  }
 }
 
 // Both ways of delivery.
