@@ -85,13 +85,13 @@ void SpeculativeContacts::add(std::size_t place, SpeculativeContact contact, dou
 
 void SpeculativeContacts::addEnd(const WallSegment& wall, const Vector2& wallEnd, double depth) {
   const std::array<Facing, 4> sides = facings(outline_, to_.local(wallEnd));
-  const auto nearest = std::max_element(
-      sides.begin(), sides.end(), [](const Facing& a, const Facing& b) { return a.gap < b.gap; });
+  double nearest = sides.front().gap;
+  for (const Facing& facing : sides) nearest = std::max(nearest, facing.gap);
   for (std::size_t side = 0; side < sides.size(); ++side) {
     const Facing& facing = sides[side];
     const double gap = facing.gap - wall.radius;
     // What is in the outline came in over the nearest side.
-    const double deepest = &facing == nearest ? depth + slidingEnd : 0.0;
+    const double deepest = facing.gap == nearest ? depth + slidingEnd : 0.0;
     if (gap < -deepest || gap > distance_) continue;
     if (std::abs(facing.fromMiddle) > facing.halfLength + touchTolerance) continue;
     const Vector2 normal = -to_.turned(facing.out);

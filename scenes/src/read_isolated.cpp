@@ -37,12 +37,11 @@ std::filesystem::path findProgram() {
   // A build has its programs side by side; an installation may have been moved as a whole.
   const std::filesystem::path here =
       std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-  const std::filesystem::path beside = here / programName;
+  std::filesystem::path beside = here / programName;
   if (!error && access(beside.c_str(), X_OK) == 0) return beside;
-  const std::filesystem::path moved = here.parent_path() / "libexec" / programName;
+  std::filesystem::path moved = here.parent_path() / "libexec" / programName;
   if (!error && access(moved.c_str(), X_OK) == 0) return moved;
-  const std::filesystem::path installed =
-      std::filesystem::path(BUMPER_LIBEXEC_DIRECTORY) / programName;
+  std::filesystem::path installed = std::filesystem::path(BUMPER_LIBEXEC_DIRECTORY) / programName;
   if (access(installed.c_str(), X_OK) == 0) return installed;
   throw Error(std::string("the program ") + programName +
               ", which LoadOptions::isolate needs, is neither " + beside.string() + " nor " +
