@@ -70,7 +70,7 @@ inline constexpr unsigned kinematic = 128;  ///< a body of a vehicle was made ki
 /// metre of it, lower than the band's top and not a part of the ground, is the wall's for the
 /// chassis; wheels climb it as ODE has it. All other contacts stay ODE's. Each step: collide, add
 /// your own forces, step(h), step the world by the same h. A step() too many, or a world step of
-/// another size, is noticed by the bodies' motion and put right; see step_issue.
+/// another size, is noticed and put right; see step_issue.
 ///
 /// An impact happens at its own time within a step, and its force pulse lasts until the same time
 /// of the next one. Meanwhile the body's velocity is not yet that after the impact: velocity() and
