@@ -44,22 +44,22 @@ Scene sceneOfBox(dGeomID box, const std::string& name) {
 }  // namespace
 
 Barrier::Barrier(BarrierId id, const Scene& scene, const BarrierOptions& options, std::string name,
-                 BarrierMesh::Query query, const ResponseSettings& usual)
+                 const ResponseSettings& usual)
     : id_(id), name_(std::move(name)), options_(options), hasScene_(true) {
-  mesh_.emplace(scene, options, name_, query);
+  mesh_.emplace(scene, options, name_);
   keepGeom(mesh_->geom());
   keepSettings(usual);
 }
 
 Barrier::Barrier(BarrierId id, dGeomID geom, const BarrierOptions& options, std::string name,
-                 BarrierMesh::Query query, const ResponseSettings& usual)
+                 const ResponseSettings& usual)
     : id_(id), name_(std::move(name)), options_(options), hasScene_(false) {
   switch (dGeomGetClass(geom)) {
     case dTriMeshClass:
-      mesh_.emplace(geom, options, name_, query);
+      mesh_.emplace(geom, options, name_);
       break;
     case dBoxClass:
-      mesh_.emplace(sceneOfBox(geom, name_), geom, options, name_, query);
+      mesh_.emplace(sceneOfBox(geom, name_), geom, options, name_);
       break;
     case dPlaneClass:
     case dCylinderClass:
@@ -75,9 +75,9 @@ Barrier::Barrier(BarrierId id, dGeomID geom, const BarrierOptions& options, std:
 }
 
 Barrier::Barrier(BarrierId id, dGeomID geom, const Scene& shape, const BarrierOptions& options,
-                 std::string name, BarrierMesh::Query query, const ResponseSettings& usual)
+                 std::string name, const ResponseSettings& usual)
     : id_(id), name_(std::move(name)), options_(options), hasScene_(true) {
-  mesh_.emplace(shape, geom, options, name_, query);
+  mesh_.emplace(shape, geom, options, name_);
   keepGeom(geom);
   keepSettings(usual);
 }

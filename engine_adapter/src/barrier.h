@@ -17,13 +17,13 @@ class Barrier {
  public:
   /// A scene, as a new geom.
   Barrier(BarrierId id, const Scene& scene, const BarrierOptions& options, std::string name,
-          BarrierMesh::Query query, const ResponseSettings& usual);
+          const ResponseSettings& usual);
   /// A geom of the application's: trimesh, box, plane or cylinder.
   Barrier(BarrierId id, dGeomID geom, const BarrierOptions& options, std::string name,
-          BarrierMesh::Query query, const ResponseSettings& usual);
+          const ResponseSettings& usual);
   /// A geom of the application's whose shape is given as a scene.
   Barrier(BarrierId id, dGeomID geom, const Scene& shape, const BarrierOptions& options,
-          std::string name, BarrierMesh::Query query, const ResponseSettings& usual);
+          std::string name, const ResponseSettings& usual);
 
   [[nodiscard]] BarrierId id() const { return id_; }
   [[nodiscard]] const std::string& name() const { return name_; }

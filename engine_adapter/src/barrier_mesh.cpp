@@ -53,8 +53,7 @@ const Known* find(const std::vector<Known>& sorted, std::size_t triangle) {
 
 }  // namespace
 
-BarrierMesh::BarrierMesh(const Scene& scene, const BarrierOptions& options, std::string name,
-                         Query query)
+BarrierMesh::BarrierMesh(const Scene& scene, const BarrierOptions& options, std::string name)
     : name_(std::move(name)) {
   const Walls selected = selectWalls(scene, options.walls);
   keepWalls(scene, selected);
@@ -64,20 +63,19 @@ BarrierMesh::BarrierMesh(const Scene& scene, const BarrierOptions& options, std:
     while (selected.walls[wall].triangle != foot.triangle) ++wall;
     keepFoot(wall, foot);
   }
-  buildMesh(query);
+  buildMesh();
   lent_.emplace(options.space, data_, walls_.origin(), 0.5 * (low_ + high_));
   geom_ = lent_->address();
 }
 
 BarrierMesh::BarrierMesh(const Scene& scene, dGeomID geom, const BarrierOptions& options,
-                         std::string name, Query query)
+                         std::string name)
     : name_(std::move(name)), geom_(geom), solid_(dGeomGetClass(geom) == dBoxClass) {
   keepWalls(scene, selectWalls(scene, options.walls));
-  buildMesh(query);
+  buildMesh();
 }
 
-BarrierMesh::BarrierMesh(dGeomID trimesh, const BarrierOptions& options, std::string name,
-                         Query query)
+BarrierMesh::BarrierMesh(dGeomID trimesh, const BarrierOptions& options, std::string name)
     : name_(std::move(name)), geom_(trimesh) {
   const Scene scene = sceneOf(trimesh, name_);
   // A wall is one from foot to top, also where no outline reaches it.
@@ -90,7 +88,7 @@ BarrierMesh::BarrierMesh(dGeomID trimesh, const BarrierOptions& options, std::st
   for (const WallFoot& foot : wallFeet(scene, selected.walls)) {
     keepFoot(static_cast<std::size_t>(foot.triangle), foot);
   }
-  buildMesh(query);
+  buildMesh();
 }
 
 BarrierMesh::~BarrierMesh() {
@@ -142,7 +140,7 @@ void BarrierMesh::keepWalls(const Scene& scene, const Walls& selected) {
   }
 }
 
-void BarrierMesh::buildMesh(Query query) {
+void BarrierMesh::buildMesh() {
   feet_.shrink_to_fit();
   // Single precision rounds by 6e-8 of the largest coordinate, in the tree and in the box.
   margin_ = 1e-4 + 1e-6 * (high_ - low_).norm();
@@ -155,10 +153,8 @@ void BarrierMesh::buildMesh(Query query) {
                               static_cast<int>(vertices.size() / 3), indices.data(),
                               static_cast<int>(indices.size()), 3 * sizeof(dTriIndex));
   queryGeom_ = dCreateTriMesh(nullptr, data_, nullptr, nullptr, nullptr);
-  if (query == Query::list_triangles) {
-    dGeomTriMeshSetCallback(queryGeom_, &noContact);
-    dGeomTriMeshSetArrayCallback(queryGeom_, &collectTriangles);
-  }
+  dGeomTriMeshSetCallback(queryGeom_, &noContact);
+  dGeomTriMeshSetArrayCallback(queryGeom_, &collectTriangles);
   const Eigen::Vector3d& origin = walls_.origin();
   dGeomSetPosition(queryGeom_, origin.x(), origin.y(), origin.z());
   report_.memory = memory();
@@ -200,11 +196,6 @@ void BarrierMesh::list(dGeomID box, std::vector<int>& walls) const {
   dGeomSetData(queryGeom_, &walls);
   dContactGeom unused;
   dCollide(box, queryGeom_, 1, &unused, sizeof unused);
-}
-
-int BarrierMesh::contacts(dGeomID box, dContactGeom* contacts, int capacity) const {
-  const std::scoped_lock guard(trimeshLock());
-  return dCollide(box, queryGeom_, capacity, contacts, sizeof(dContactGeom));
 }
 
 }  // namespace bumper

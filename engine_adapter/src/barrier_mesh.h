@@ -19,16 +19,12 @@ namespace bumper {
 /// A registered barrier: its walls in double precision, and their trimesh for ODE's collider.
 class BarrierMesh {
  public:
-  /// How ODE's collider is asked about the walls.
-  enum class Query { list_triangles, make_contacts };
-
   /// A new geom for the scene's walls in options.space.
-  BarrierMesh(const Scene& scene, const BarrierOptions& options, std::string name, Query query);
+  BarrierMesh(const Scene& scene, const BarrierOptions& options, std::string name);
   /// The walls of the application's geom, of any class, as a scene in world coordinates.
-  BarrierMesh(const Scene& scene, dGeomID geom, const BarrierOptions& options, std::string name,
-              Query query);
+  BarrierMesh(const Scene& scene, dGeomID geom, const BarrierOptions& options, std::string name);
   /// The walls of the application's trimesh.
-  BarrierMesh(dGeomID trimesh, const BarrierOptions& options, std::string name, Query query);
+  BarrierMesh(dGeomID trimesh, const BarrierOptions& options, std::string name);
   ~BarrierMesh();
   BarrierMesh(const BarrierMesh&) = delete;
   BarrierMesh& operator=(const BarrierMesh&) = delete;
@@ -69,8 +65,6 @@ class BarrierMesh {
   /// Fills `walls` with the indices of those that ODE's collider finds at the box. The collider
   /// works in single precision: make the box larger by margin() on every side.
   void list(dGeomID box, std::vector<int>& walls) const;
-  /// ODE's own contacts of the box with the walls; Query::make_contacts only.
-  int contacts(dGeomID box, dContactGeom* contacts, int capacity) const;
   [[nodiscard]] double margin() const { return margin_; }
 
  private:
@@ -92,7 +86,7 @@ class BarrierMesh {
   void keepParts(const std::vector<WallPart>& parts);
   void keepFoot(std::size_t triangle, const WallFoot& foot);
   void keepWalls(const Scene& scene, const Walls& selected);
-  void buildMesh(Query query);
+  void buildMesh();
   [[nodiscard]] std::size_t memory() const;
 
   std::string name_;

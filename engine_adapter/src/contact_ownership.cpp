@@ -123,13 +123,13 @@ struct Contact {
 
 /// Whether the contact is one with a wall that reaches into the vehicle's band.
 bool isWithWall(const OwnedPair& pair, const VehiclePose& pose, const Contact& contact) {
-  const WallQuery& query = pair.vehicle->query;
+  const Envelope& envelope = pair.vehicle->envelope;
   const WallPart part = pair.barrier->partAt(contact.triangle, contact.normal);
   if (part.kind == WallPart::Kind::none) return false;
-  if (!query.inBand(pose, contact.place, part.foot, part.top)) return false;
+  if (!envelope.inBand(pose, contact.place, part.foot, part.top)) return false;
   // A cap is the wall's for a vehicle that stands before the wall, and ground for the wheels of
   // one that drives up to its height.
-  return part.kind == WallPart::Kind::face || query.isAboveBottom(pose, contact.place);
+  return part.kind == WallPart::Kind::face || envelope.isAboveBottom(pose, contact.place);
 }
 
 /// Whether it is one of the chassis with the foot of such a wall: Bumper answers the wall, and the
@@ -137,9 +137,9 @@ bool isWithWall(const OwnedPair& pair, const VehiclePose& pose, const Contact& c
 bool isWithFoot(const OwnedPair& pair, const VehiclePose& pose, const Contact& contact) {
   if (pair.body != pair.vehicle->bodies.chassis()) return false;
   const std::optional<WallFoot> foot = pair.barrier->footAt(contact.triangle);
-  const WallQuery& query = pair.vehicle->query;
-  return foot && query.isBelowTop(pose, contact.place) &&
-         query.inBand(pose, contact.place, foot->foot, foot->top);
+  const Envelope& envelope = pair.vehicle->envelope;
+  return foot && envelope.isBelowTop(pose, contact.place) &&
+         envelope.inBand(pose, contact.place, foot->foot, foot->top);
 }
 
 bool isOurs(const OwnedPair& pair, const VehiclePose& pose, const dContactGeom& geom) {
@@ -148,7 +148,7 @@ bool isOurs(const OwnedPair& pair, const VehiclePose& pose, const dContactGeom& 
                         .triangle = pair.barrierFirst ? geom.side1 : geom.side2};
   // ODE numbers no triangle where two trimeshes meet along their edges.
   if (contact.triangle < 0 && dGeomGetClass(pair.barrier->geom()) == dTriMeshClass) {
-    return pair.vehicle->query.isAboveBottom(pose, contact.place);
+    return pair.vehicle->envelope.isAboveBottom(pose, contact.place);
   }
   return isWithWall(pair, pose, contact) || isWithFoot(pair, pose, contact);
 }
@@ -159,8 +159,8 @@ bool Responder::claims(dGeomID a, dGeomID b) const {
   const OwnedPair pair = pairOf(*implementation_, a, b);
   // A mesh that holds ground too is sorted out contact by contact.
   if (!pair || !pair.barrier->hasWallsOnly()) return false;
-  return pair.vehicle->query.allInBand(pair.vehicle->bodies.readPose(), pair.barrier->highestFoot(),
-                                       pair.barrier->lowestTop());
+  return pair.vehicle->envelope.allInBand(pair.vehicle->bodies.readPose(),
+                                          pair.barrier->highestFoot(), pair.barrier->lowestTop());
 }
 
 int Responder::keepUnclaimed(dGeomID a, dGeomID b, dContact* contacts, int count) const {

@@ -1,4 +1,4 @@
-// What an application is told: impacts, and contacts that begin and end.
+// Events: impacts, and contacts that begin and end.
 
 #include <algorithm>
 #include <utility>
@@ -29,8 +29,9 @@ ImpactEvent Responder::Implementation::eventAt(const Vehicle& vehicle, const Bar
   return event;
 }
 
-void Responder::Implementation::report(Vehicle& vehicle, const VehicleState& state,
-                                       const Barrier& barrier, int wall, const StepImpact& each) {
+void Responder::Implementation::reportImpact(Vehicle& vehicle, const Barrier& barrier, int wall,
+                                             const StepImpact& each) {
+  const VehicleState& state = vehicle.reading.state;
   const Impact& impact = each.impact;
   const ImpactResponse& response = each.response;
   const Eigen::Vector3d contact = state.massCentre + state.toWorld(impact.point);
@@ -83,7 +84,8 @@ void Responder::Implementation::report(Vehicle& vehicle, const VehicleState& sta
 
 // What the guard contacts did in the world's last step. It counts to the contact with the wall; the
 // rise of a load is told as an impact.
-void Responder::Implementation::reportLoads(Vehicle& vehicle, const VehicleState& state) {
+void Responder::Implementation::reportLoads(Vehicle& vehicle) {
+  const VehicleState& state = vehicle.reading.state;
   std::vector<SustainedContact>& contacts = vehicle.memory.contacts;
   fadeLoads(contacts, lastStep);
   for (const GuardLoad& load : vehicle.guards.loads()) {
@@ -133,15 +135,18 @@ void Responder::Implementation::reportLoads(Vehicle& vehicle, const VehicleState
   vehicle.guards.forget();
 }
 
-void Responder::Implementation::endContacts(Vehicle& vehicle) {
-  Outline around = vehicle.query.outline();
+void Responder::Implementation::reportEndedContacts(Vehicle& vehicle) {
+  Outline around = vehicle.envelope.outline();
   around.front += contactDistance;
   around.rear += contactDistance;
   around.halfWidth += contactDistance;
+  const NearbyWalls& nearby = vehicle.nearby;
+  const std::span<const Segment> walls = nearby.all().segments;
   std::erase_if(vehicle.memory.contacts, [&](const SustainedContact& contact) {
     if (time - contact.last < contactPause) return false;
-    const bool near = std::any_of(segments.begin(), segments.end(), [&](const WallSegment& wall) {
-      return wall.group == contact.barrier.value && findTouch(around, {}, wall).has_value();
+    const bool near = std::any_of(walls.begin(), walls.end(), [&](const Segment& wall) {
+      return nearby.ownerOf(wall).barrier == contact.barrier &&
+             findTouch(around, {}, wall).has_value();
     });
     if (near) return false;
     const Barrier& barrier = *barriers[static_cast<std::size_t>(contact.barrier.value)];

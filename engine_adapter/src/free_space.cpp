@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "guard_contacts.h"
 #include "ode_vectors.h"
-#include "wall_query.h"
 
 namespace bumper {
 
@@ -63,11 +63,8 @@ double leanAsSeen(double wallLean, double tilt) {
 
 }  // namespace
 
-FreeSpace::FreeSpace(const VehicleBodies& bodies, const VehicleParameters& parameters,
-                     const Band& band, double minUprightness)
-    : outline_(parameters),
-      low_(band.bottom - parameters.massCentreHeight),
-      high_(band.top - parameters.massCentreHeight),
+FreeSpace::FreeSpace(const VehicleBodies& bodies, const Envelope& envelope, double minUprightness)
+    : envelope_(envelope),
       minUprightness_(minUprightness),
       rotation_(dBodyGetRotation(bodies.chassis())),
       quaternion_(dBodyGetQuaternion(bodies.chassis())),
@@ -110,10 +107,11 @@ bool FreeSpace::fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
   }
   const double acceleration = massChange * forces / state.mass + gravity + gravityAllowance;
   const double way = h * (speed + h * acceleration);
-  const double near = nearDistance(speed, h);
+  const double near = guardDistance(speed, h);
   const double tilt = std::acos(std::clamp(leastUp_, 0.0, 1.0));
-  const double bandHeight = high_ - low_;
-  const double height = std::max(std::abs(low_), std::abs(high_));
+  const Outline& outline = envelope_.outline();
+  const double bandHeight = envelope_.bandHeight();
+  const double height = std::max(std::abs(envelope_.low()), std::abs(envelope_.high()));
 
   // What the vehicle takes of the horizontal plane, with all that counts as near, and in the step.
   const Eigen::Vector2d along(forwardX_, forwardY_);
@@ -122,19 +120,19 @@ bool FreeSpace::fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
   double rear = 0.0;
   double side = 0.0;
   if (room.anyHeading) {
-    const double zone = outline_.enlarged(near).farthest();
-    front = rear = side = std::hypot(std::max(zone, outline_.radius() + way) + slack, height);
+    const double zone = outline.enlarged(near).farthest();
+    front = rear = side = std::hypot(std::max(zone, outline.radius() + way) + slack, height);
   } else {
     const double torques = count / std::sqrt(torqueWeight_);
     // While the bodies move each for itself.
     const double farthestArm = count > 1.0 ? 2.0 * arm : 0.0;
     const double yawAcceleration = massChange * (torques + farthestArm * forces) / state.yawInertia;
     const double turned =
-        h * (1.0 / std::sqrt(turningWeight_) + h * yawAcceleration) * outline_.radius();
-    const PlanRectangle zone = outline_.enlarged(std::max(near, way + turned) + slack);
+        h * (1.0 / std::sqrt(turningWeight_) + h * yawAcceleration) * outline.radius();
+    const PlanRectangle zone = outline.enlarged(std::max(near, way + turned) + slack);
     for (const double x : {zone.middle.x() - zone.half.x(), zone.middle.x() + zone.half.x()}) {
       for (const double y : {-zone.half.y(), zone.half.y()}) {
-        for (const double z : {low_, high_}) {
+        for (const double z : {envelope_.low(), envelope_.high()}) {
           const Eigen::Vector2d corner = (state.axes * Eigen::Vector3d(x, y, z)).head<2>();
           front = std::max(front, along.dot(corner));
           rear = std::max(rear, -along.dot(corner));

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "barrier.h"
-#include "bumper/response/contact_point.h"
+#include "envelope.h"
 #include "vehicle_bodies.h"
 
 namespace bumper {
@@ -15,16 +15,16 @@ namespace bumper {
 /// Room around a vehicle without any wall, and the motion for which it cannot come near one within
 /// a step: as long as the vehicle is in that room and no faster than that, its step is skipped.
 ///
-/// The room is a strip of the horizontal plane along the vehicle's way, wide enough for any heading
-/// or, between walls, for the heading that the vehicle has. It is found with the barriers' plans,
-/// and holds whatever the walls' heights.
+/// The room is a corridor of the horizontal plane along the vehicle's way, wide enough for any
+/// heading or, between walls, for the heading that the vehicle has. It is found with the barriers'
+/// plans, and holds whatever the walls' heights.
 class FreeSpace {
  public:
-  FreeSpace(const VehicleBodies& bodies, const VehicleParameters& parameters, const Band& band,
-            double minUprightness);
+  /// The envelope must live as long.
+  FreeSpace(const VehicleBodies& bodies, const Envelope& envelope, double minUprightness);
 
   /// Whether the vehicle certainly touches no wall in the coming step of `h` seconds, and is not
-  /// near one as nearDistance() has it. A comparison of what its bodies are and do now;
+  /// near one as guardDistance() has it. A comparison of what its bodies are and do now;
   /// false if in doubt.
   [[nodiscard]] bool holds(double h);
 
@@ -67,9 +67,7 @@ class FreeSpace {
   [[nodiscard]] bool fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
                           const VehicleState& state, const Room& room, double gravity, double h);
 
-  Outline outline_;
-  double low_;  // the band in the vehicle's frame
-  double high_;
+  const Envelope& envelope_;
   double minUprightness_;
 
   std::vector<Body> bodies_;

@@ -2,6 +2,7 @@
 
 #include <ode/ode.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -19,6 +20,13 @@ bool hasOuterJoint(const VehicleBodies& bodies);
 /// Whether such a joint leads to another body: it may wake them in the coming step, as may those
 /// that it hangs together with.
 bool hasJointWithBody(const VehicleBodies& bodies);
+
+/// A wall is near enough for a guard contact if the outline may come to it within a step of `h`
+/// seconds: by twice the speed that it has, or by that which a blow of others may give it, m/s.
+inline double guardDistance(double speed, double h) {
+  constexpr double afterBlow = 50.0;
+  return h * std::max(2.0 * speed, afterBlow);
+}
 
 /// One vehicle's guard contacts. A force pulse is worked out for a vehicle that nothing else
 /// touches. Where joints act on it too, its guard contacts make the walls a part of the world's own

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "wall_cut.h"
+
 namespace bumper {
 
 namespace {
@@ -19,45 +21,60 @@ constexpr double aroundCorner = 1.4143;
 
 }  // namespace
 
-bool NearbyWalls::covers(const WallQuery& query, const VehicleState& state, double reach) const {
+bool NearbyWalls::covers(const Envelope& vehicle, const VehicleState& state, double reach) const {
   if (!isKnown_) return false;
   const Eigen::Vector3d moved = axes_.transpose() * (state.massCentre - centre_);
-  const double turned = query.radius() * (state.axes - axes_).norm();
-  const double needed = reach + query.lean() + turned;
+  const double turned = vehicle.radius() * (state.axes - axes_).norm();
+  const double needed = reach + vehicle.bandHeight() + turned;
   return moved.x() + needed <= margins_.front && -moved.x() + needed <= margins_.rear &&
          std::abs(moved.y()) + needed <= margins_.side &&
          std::abs(moved.z()) + turned <= margins_.height;
 }
 
-void NearbyWalls::list(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
+void NearbyWalls::list(const Envelope& vehicle,
+                       const std::vector<std::unique_ptr<Barrier>>& barriers,
                        const VehicleState& state, double reach) {
   centre_ = state.massCentre;
   axes_ = state.axes;
   // One that spins turns out of the region before it has passed through it.
-  const double spin = std::abs(state.yawRate) * 1.5 * query.radius();
+  const double spin = std::abs(state.yawRate) * 1.5 * vehicle.radius();
   const double time = std::min(timeAhead, allAround / std::max(spin, 1e-9));
   const double way =
       std::clamp(time * state.axes.col(0).dot(state.velocity), -mostAhead, mostAhead);
-  const double needed = reach + query.lean() + allAround;
+  const double needed = reach + vehicle.bandHeight() + allAround;
   margins_ = {.front = needed + std::max(way, 0.0),
               .rear = needed + std::max(-way, 0.0),
               .side = needed,
               .height = allAround};
   const double radius =
-      query.radius() + std::max(margins_.front, margins_.rear) + margins_.side + margins_.height;
+      vehicle.radius() + std::max(margins_.front, margins_.rear) + margins_.side + margins_.height;
   faces_.clear();
+  surfaces_.clear();
+  owners_.clear();
   for (const std::unique_ptr<Barrier>& barrier : barriers) {
     if (barrier == nullptr || !barrier->mayComeWithin(centre_, radius)) continue;
     if (barrier->mesh() == nullptr) {
       faces_.push_back({.barrier = barrier.get(),
                         .centre = centre_,
                         .radius = std::numeric_limits<double>::infinity(),
-                        .settings = &barrier->settings(barrier->settingsNumberOf(0))});
+                        .surface = surfaceNumber(*barrier, 0)});
     } else {
-      listFaces(*barrier, query.list(*barrier->mesh(), state, margins_));
+      listFaces(*barrier, query_.list(*barrier->mesh(), vehicle, state, margins_));
     }
   }
   isKnown_ = true;
+}
+
+// The number here of the surface that a barrier's wall has.
+int NearbyWalls::surfaceNumber(const Barrier& barrier, int wall) {
+  const Owner owner{.barrier = barrier.id(), .settings = barrier.settingsNumberOf(wall)};
+  const auto known = std::find(owners_.begin(), owners_.end(), owner);
+  if (known == owners_.end()) {
+    owners_.push_back(owner);
+    surfaces_.push_back({.settings = &barrier.settings(owner.settings)});
+    return static_cast<int>(owners_.size()) - 1;
+  }
+  return static_cast<int>(known - owners_.begin());
 }
 
 // The faces that walls belong to, which come in order.
@@ -69,7 +86,7 @@ void NearbyWalls::listFaces(const Barrier& barrier, std::span<const int> walls) 
     if (wall < done) continue;
     Near near{.barrier = &barrier, .walls = table.faceOf(wall)};
     near.face = table.face(near.walls);
-    near.settings = &barrier.settings(barrier.settingsNumberOf(number));
+    near.surface = surfaceNumber(barrier, number);
     Eigen::Vector3d low = near.face.corners().front();
     Eigen::Vector3d high = low;
     for (const Eigen::Vector3d& corner : near.face.corners()) {
@@ -84,7 +101,7 @@ void NearbyWalls::listFaces(const Barrier& barrier, std::span<const int> walls) 
 }
 
 // Whether a face may be in a rectangle of the yaw plane, over the band.
-bool NearbyWalls::mayMeet(const Near& near, const WallQuery& query, const VehicleState& state,
+bool NearbyWalls::mayMeet(const Near& near, const Envelope& vehicle, const VehicleState& state,
                           const PlanRectangle& around) {
   const Eigen::Vector3d away = near.centre - state.massCentre;
   const double x = state.axes.col(0).dot(away) - around.middle.x();
@@ -100,51 +117,63 @@ bool NearbyWalls::mayMeet(const Near& near, const WallQuery& query, const Vehicl
   const double normalZ = state.axes.col(2).dot(normal);
   const double offset = normal.dot(near.face.corners().front() - state.massCentre) -
                         normalX * around.middle.x() - normalY * around.middle.y() -
-                        normalZ * query.middleHeight();
+                        normalZ * vehicle.middleHeight();
   const double half = std::abs(normalX) * around.half.x() + std::abs(normalY) * around.half.y() +
-                      std::abs(normalZ) * 2.0 * query.lean();
+                      std::abs(normalZ) * 2.0 * vehicle.bandHeight();
   return std::abs(offset) <= half + 2.0 * touchTolerance;
 }
 
-std::optional<WallSegment> NearbyWalls::pieceOf(const Near& near, const WallQuery& query,
-                                                const VehicleState& state, double reach) {
+std::optional<Segment> NearbyWalls::pieceOf(const Near& near, const Envelope& vehicle,
+                                            const VehicleState& state, double reach) {
   const Barrier& barrier = *near.barrier;
   const PrimitiveWall* primitive = barrier.primitive();
-  std::optional<WallSegment> piece =
-      primitive != nullptr ? query.cut(*primitive, state, reach) : query.cut(near.face, state);
+  std::optional<Segment> piece = primitive != nullptr ? primitive->cut(state, vehicle, reach)
+                                                      : cutFace(near.face, state, vehicle);
   if (!piece) return piece;
   if (primitive == nullptr) piece->solid = barrier.mesh()->isSolid();
-  piece->group = barrier.id().value;
-  piece->settings = near.settings;
+  piece->surface = near.surface;
   return piece;
 }
 
-void NearbyWalls::collect(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
-                          const VehicleState& state, const Question& question,
-                          std::vector<WallSegment>& segments) {
-  if (!covers(query, state, question.reach)) list(query, barriers, state, question.reach);
-  segments.clear();
+void NearbyWalls::enter(const Owner& owner, double depth) {
+  const auto known = std::find(owners_.begin(), owners_.end(), owner);
+  if (known == owners_.end()) return;
+  Surface& surface = surfaces_[static_cast<std::size_t>(known - owners_.begin())];
+  surface.entered = true;
+  surface.depth = std::max(surface.depth, depth);
+}
+
+void NearbyWalls::remove(const Owner& owner) {
+  std::erase_if(segments_, [&](const Segment& wall) { return ownerOf(wall) == owner; });
+}
+
+void NearbyWalls::collect(const Envelope& vehicle,
+                          const std::vector<std::unique_ptr<Barrier>>& barriers,
+                          const VehicleState& state, const Question& question) {
+  if (!covers(vehicle, state, question.reach)) list(vehicle, barriers, state, question.reach);
+  for (Surface& surface : surfaces_) surface = {.settings = surface.settings};
+  segments_.clear();
   if (!question.evenIfNoneIsThere && !wasThere_) {
     const auto mayBeThere = [&](const Near& each) {
-      return mayMeet(each, query, state, question.around);
+      return mayMeet(each, vehicle, state, question.around);
     };
     if (std::none_of(faces_.begin(), faces_.end(), mayBeThere)) return;
   }
-  const auto meets = [](PlanRectangle rectangle, const WallSegment& piece) {
+  const auto meets = [](PlanRectangle rectangle, const Segment& piece) {
     rectangle.half.array() += piece.radius;
     return !rectangle.misses(piece.start, piece.end);
   };
-  const PlanRectangle within = query.outline().enlarged(question.reach);
+  const PlanRectangle within = vehicle.outline().enlarged(question.reach);
   wasThere_ = false;
   for (std::size_t i = 0; i < faces_.size(); ++i) {
-    if (!mayMeet(faces_[i], query, state, within)) continue;
-    const std::optional<WallSegment> piece = pieceOf(faces_[i], query, state, question.reach);
+    if (!mayMeet(faces_[i], vehicle, state, within)) continue;
+    const std::optional<Segment> piece = pieceOf(faces_[i], vehicle, state, question.reach);
     if (!piece || !meets(within, *piece)) continue;
     wasThere_ = wasThere_ || meets(question.around, *piece);
-    segments.push_back(*piece);
-    segments.back().id = static_cast<int>(i);
+    segments_.push_back(*piece);
+    segments_.back().id = static_cast<int>(i);
   }
-  if (!wasThere_ && !question.evenIfNoneIsThere) segments.clear();
+  if (!wasThere_ && !question.evenIfNoneIsThere) segments_.clear();
 }
 
 }  // namespace bumper

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "barrier.h"
+#include "bumper/response/collision_step.h"
+#include "envelope.h"
 #include "vehicle_bodies.h"
 #include "wall_face.h"
 #include "wall_query.h"
@@ -23,7 +25,12 @@ struct BarrierWall {
 /// the vehicle may reach out of it.
 class NearbyWalls {
  public:
-  NearbyWalls() { faces_.reserve(32); }
+  NearbyWalls() {
+    faces_.reserve(32);
+    surfaces_.reserve(8);
+    owners_.reserve(8);
+    segments_.reserve(32);
+  }
 
   /// What is asked of the walls around a vehicle.
   struct Question {
@@ -32,12 +39,34 @@ class NearbyWalls {
     bool evenIfNoneIsThere = false;
   };
 
-  /// `segments` gets all pieces of walls within the reach of the vehicle in that state, in the
-  /// order of barriers and walls; none if no wall is in the rectangle, unless they are wanted even
-  /// then. A piece's id is its face's number here.
-  void collect(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
-               const VehicleState& state, const Question& question,
-               std::vector<WallSegment>& segments);
+  /// Finds all pieces of walls within the reach of the vehicle in that state, in the order of
+  /// barriers and walls; none if no wall is in the rectangle, unless they are wanted even then. A
+  /// segment's id is its face's number here, and its surface one of a barrier's settings.
+  void collect(const Envelope& vehicle, const std::vector<std::unique_ptr<Barrier>>& barriers,
+               const VehicleState& state, const Question& question);
+
+  /// As if collect() had found nothing.
+  void clear() { segments_.clear(); }
+
+  /// What the last collect() found, until the next one.
+  [[nodiscard]] CollisionStep::Walls all() const { return {segments_, surfaces_}; }
+
+  /// Which barrier a surface belongs to, and the number of its settings there.
+  struct Owner {
+    BarrierId barrier;
+    int settings = 0;
+    bool operator==(const Owner&) const = default;
+  };
+  [[nodiscard]] const Owner& ownerOf(const Segment& wall) const {
+    return owners_[static_cast<std::size_t>(wall.surface)];
+  }
+  [[nodiscard]] const ResponseSettings& settingsOf(int surface) const {
+    return *surfaces_[static_cast<std::size_t>(surface)].settings;
+  }
+  /// A long force pulse of that surface runs, which lets the vehicle in as deep as that, m.
+  void enter(const Owner& owner, double depth);
+  /// Takes out that surface's segments.
+  void remove(const Owner& owner);
 
   /// A wall of the face with that number, until the next collect().
   [[nodiscard]] BarrierWall at(int number) const {
@@ -55,23 +84,28 @@ class NearbyWalls {
     WallFace face{};                                   // none for what is no triangle
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // of a ball around the face
     double radius = 0.0;
-    const ResponseSettings* settings = nullptr;
+    int surface = 0;
   };
 
-  [[nodiscard]] bool covers(const WallQuery& query, const VehicleState& state, double reach) const;
-  [[nodiscard]] static bool mayMeet(const Near& near, const WallQuery& query,
+  [[nodiscard]] bool covers(const Envelope& vehicle, const VehicleState& state, double reach) const;
+  [[nodiscard]] static bool mayMeet(const Near& near, const Envelope& vehicle,
                                     const VehicleState& state, const PlanRectangle& around);
-  static std::optional<WallSegment> pieceOf(const Near& near, const WallQuery& query,
-                                            const VehicleState& state, double reach);
-  void list(WallQuery& query, const std::vector<std::unique_ptr<Barrier>>& barriers,
+  static std::optional<Segment> pieceOf(const Near& near, const Envelope& vehicle,
+                                        const VehicleState& state, double reach);
+  void list(const Envelope& vehicle, const std::vector<std::unique_ptr<Barrier>>& barriers,
             const VehicleState& state, double reach);
   void listFaces(const Barrier& barrier, std::span<const int> walls);
+  int surfaceNumber(const Barrier& barrier, int wall);
 
+  WallQuery query_;
   bool isKnown_ = false;
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();    // the region: the vehicle's place,
-  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  // its axes,
-  WallQuery::Margins margins_;                          // and how far it reaches beyond the outline
+  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  // its axes, and
+  WallQuery::Margins margins_;                          // how far it reaches beyond the envelope
   std::vector<Near> faces_;
+  std::vector<Surface> surfaces_;
+  std::vector<Owner> owners_;  // of the surfaces
+  std::vector<Segment> segments_;
   // Something was there in the last step: looking at all at once is then the shortest way.
   bool wasThere_ = false;
 };

@@ -37,11 +37,14 @@ PrimitiveWall::PrimitiveWall(dGeomID geom, double maxNormalUp) {
   top_ = place_.z() + 0.5 * length * direction_.z();
 }
 
-std::optional<WallSegment> PrimitiveWall::cut(const VehicleState& state, double low, double high,
-                                              double reach) const {
+std::optional<Segment> PrimitiveWall::cut(const VehicleState& state, const Envelope& vehicle,
+                                          double beyond) const {
+  const double low = vehicle.low();
+  const double high = vehicle.high();
+  const double reach = vehicle.radius() + beyond;
   const Eigen::Vector3d place = state.axes.transpose() * (place_ - state.massCentre);
   const Eigen::Vector3d direction = state.axes.transpose() * direction_;
-  WallSegment wall;
+  Segment wall;
   if (isPost()) {
     const double footHeight = place.z() + (foot_ - place_.z()) * state.up().z();
     const double topHeight = place.z() + (top_ - place_.z()) * state.up().z();

@@ -5,8 +5,9 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "bumper/response/contact_point.h"
+#include "bumper/response/segment.h"
 #include "bumper/scenes/wall_plan.h"
+#include "envelope.h"
 #include "vehicle_bodies.h"
 
 namespace bumper {
@@ -18,10 +19,10 @@ class PrimitiveWall {
   /// `maxNormalUp` as in WallSelection.
   PrimitiveWall(dGeomID geom, double maxNormalUp);
 
-  /// Where a vehicle's yaw plane cuts it within `reach` of the mass centre, m, between the heights
-  /// low and high of the vehicle's z axis; nothing if it lies elsewhere.
-  [[nodiscard]] std::optional<WallSegment> cut(const VehicleState& state, double low, double high,
-                                               double reach) const;
+  /// Where a vehicle's yaw plane cuts it over the band, long enough for `beyond` the envelope, m;
+  /// nothing if it is further away than that.
+  [[nodiscard]] std::optional<Segment> cut(const VehicleState& state, const Envelope& vehicle,
+                                           double beyond) const;
 
   /// Distance to the plane, or to the post as if it had no ends, from the nearest of the places
   /// up to `height` above or below one, m.

@@ -54,7 +54,7 @@ void deliver(const VehicleBodies& bodies, const VehicleState& state, const Plana
     if (how == Delivery::force_pulse) {
       bodies.push(state, over(impulse, h));
     } else {
-      bodies.kick(state, impulse);
+      bodies.changeVelocity(state, impulse);
     }
   }
   delivery.any = true;
@@ -73,7 +73,7 @@ void takeBack(const VehicleBodies& bodies, Delivery how, const LastDelivery& del
   if (how == Delivery::force_pulse) {
     bodies.push(state, over(back, delivery.step));
   } else {
-    bodies.kick(state, back);
+    bodies.changeVelocity(state, back);
   }
 }
 

@@ -48,11 +48,8 @@ template <typename... Source>
 std::unique_ptr<Barrier> makeBarrier(const Responder::Implementation& responder, BarrierId id,
                                      const BarrierOptions& options, std::string name,
                                      const Source&... source) {
-  const bool exact = responder.options.contactSource == ContactSource::exact_cut;
-  return std::make_unique<Barrier>(
-      id, source..., options, std::move(name),
-      exact ? BarrierMesh::Query::list_triangles : BarrierMesh::Query::make_contacts,
-      responder.options.response);
+  return std::make_unique<Barrier>(id, source..., options, std::move(name),
+                                   responder.options.response);
 }
 
 // Builds the barrier whole before anything refers to it.
@@ -255,7 +252,6 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
   if (!self.clock) self.clock.emplace(self.world);
   // So that step() need not allocate when the first vehicle hits the first wall.
   self.events.reserve(CollisionStep::maxImpacts + 16 * self.vehicles.size());
-  self.segments.reserve(128);
   self.active.resize(self.vehicles.size());
   return {id};
 }

@@ -138,7 +138,7 @@ void VehicleBodies::push(const VehicleState& state, const PlanarForce& force) co
   }
 }
 
-void VehicleBodies::kick(const VehicleState& state, const PlanarImpulse& impulse) const {
+void VehicleBodies::changeVelocity(const VehicleState& state, const PlanarImpulse& impulse) const {
   const Eigen::Vector3d change = state.toWorld(impulse.linear) / state.mass;
   const Eigen::Vector3d turning = impulse.angular / state.yawInertia * state.up();
   for (dBodyID body : bodies_) {

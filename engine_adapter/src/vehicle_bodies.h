@@ -62,7 +62,7 @@ class VehicleBodies {
   void push(const VehicleState& state, const PlanarForce& force) const;
 
   /// The same as changes of velocity, at once.
-  void kick(const VehicleState& state, const PlanarImpulse& impulse) const;
+  void changeVelocity(const VehicleState& state, const PlanarImpulse& impulse) const;
 
  private:
   std::vector<dBodyID> bodies_;

@@ -92,7 +92,7 @@ Situation situationOf(const Scene& scene, const Recording& recording, std::size_
   for (const Vector2d& corner : outline.corners())
     s.corners.emplace_back(s.centre + corner.x() * s.forward + corner.y() * s.left);
   // The wall's line through the contact point, as far as the outline can reach.
-  WallSegment line;
+  Segment line;
   const double reach = 2.0 * (outline.front + outline.rear + outline.halfWidth);
   line.start = s.contact - reach * s.tangent;
   line.end = s.contact + reach * s.tangent;

@@ -4,6 +4,13 @@
 
 namespace bumper {
 
+/// The sign of friction on a contact that slips so.
+double againstSlip(double slip);
+
+/// J_n for a normal velocity after of −e v_n when J_t = ratio · J_n (Eq. 17 with a signed μ).
+double normalImpulse(const ContactMobility& mobility, const ContactVelocity& before,
+                     double restitution, double ratio);
+
 /// Fills in what follows from an impulse; `regime` is left to the caller.
 ContactSolution describe(const ContactMobility& mobility, const ContactVelocity& before,
                          const ContactImpulse& impulse);

@@ -22,30 +22,36 @@ ContactSolution answerByRestitution(const ContactMobility& mobility,
              : solveRestitution(mobility, velocity, restitution, friction);
 }
 
-ContactBody bodyAt(const Impact& impact, const PlanarMotion& motion, double mass,
-                   double yawInertia) {
-  return {.inverseMass = 1.0 / mass,
-          .inverseYawInertia = 1.0 / yawInertia,
-          .arm = impact.arm,
-          .velocity = motion.velocity,
-          .yawRate = motion.yawRate};
-}
-
 // What is known of an impact before anything answers it.
-ImpactResponse before(const PlanarMotion& motion, const ContactVelocity& velocity) {
+ImpactResponse before(const PlanarBody& vehicle, const PlanarBody& other,
+                      const ContactVelocity& velocity) {
   ImpactResponse response;
-  response.before = motion;
+  response.before = vehicle.motion;
+  response.otherAfter = other.motion;
   response.approachSpeed = -velocity.normal;
   return response;
 }
 
-void apply(ImpactResponse& response, const PlanarImpulse& impulse, double mass, double yawInertia) {
+// Lets an impulse act on the vehicle, and its opposite on the other body.
+void apply(ImpactResponse& response, const Impact& impact, PlanarBody vehicle, PlanarBody other,
+           const PlanarImpulse& impulse) {
+  const double energyBefore = vehicle.energy() + other.energy();
+  vehicle.apply(impulse);
+  other.apply({.linear = -impulse.linear, .angular = -cross(impact.otherArm, impulse.linear)});
   response.impulse = impulse;
-  response.after = afterImpulse(response.before, impulse, mass, yawInertia);
-  const double energyBefore = yawPlaneEnergy(response.before, mass, yawInertia);
+  response.after = vehicle.motion;
+  response.otherAfter = other.motion;
   if (energyBefore > 0.0) {
-    response.energyRatio = yawPlaneEnergy(response.after, mass, yawInertia) / energyBefore;
+    response.energyRatio = (vehicle.energy() + other.energy()) / energyBefore;
   }
+}
+
+// The vehicle's motion as the other body sees it: what it would be if that stood still.
+PlanarMotion relativeMotion(const Impact& impact, const PlanarBody& vehicle,
+                            const PlanarBody& other) {
+  PlanarMotion relative = vehicle.motion;
+  relative.velocity -= velocityAt(other.motion, impact.otherArm);
+  return relative;
 }
 
 }  // namespace
@@ -72,16 +78,22 @@ AnglesOfAttack anglesOfAttack(const Impact& impact, const PlanarMotion& motion) 
           .heading = by(AngleDefinition::heading)};
 }
 
-ImpactResponse respond(const Impact& impact, const PlanarMotion& motion, double mass,
-                       double yawInertia, const ResponseSettings& settings, Rebound rebound) {
-  const ContactBody vehicle = bodyAt(impact, motion, mass, yawInertia);
-  const ContactMobility mobility = contactMobility(vehicle, impact.normal);
-  const ContactVelocity velocity = contactVelocity(vehicle, impact.normal);
-  const double energyBefore = yawPlaneEnergy(motion, mass, yawInertia);
+ImpactResponse respond(const Impact& impact, const PlanarBody& vehicle,
+                       const ResponseSettings& settings, Rebound rebound) {
+  return respond(impact, vehicle, PlanarBody{}, settings, rebound);
+}
 
-  ImpactResponse response = before(motion, velocity);
+ImpactResponse respond(const Impact& impact, const PlanarBody& vehicle, const PlanarBody& other,
+                       const ResponseSettings& settings, Rebound rebound) {
+  const ContactBody own = contactBody(vehicle, impact.arm);
+  const ContactBody others = contactBody(other, impact.otherArm);
+  const ContactMobility mobility = contactMobility(own, others, impact.normal);
+  const ContactVelocity velocity = contactVelocity(own, others, impact.normal);
+
+  ImpactResponse response = before(vehicle, other, velocity);
   response.law = rebound == Rebound::elastic ? Law::restitution : settings.law;
-  const AttackDirection attack = attackDirection(impact, motion, settings.angle);
+  const AttackDirection attack =
+      attackDirection(impact, relativeMotion(impact, vehicle, other), settings.angle);
   response.friction = settings.friction(attack);
 
   double fade = rebound == Rebound::none ? 0.0 : 1.0;
@@ -94,7 +106,7 @@ ImpactResponse respond(const Impact& impact, const PlanarMotion& motion, double 
     const EnergySolution solution =
         answerByEnergy(mobility, velocity,
                        {.energyRatio = response.energyAsked,
-                        .energyBefore = energyBefore,
+                        .energyBefore = vehicle.energy() + other.energy(),
                         .friction = response.friction,
                         .maxRestitution = fade * settings.maxRestitution,
                         .root = settings.energyRoot},
@@ -112,24 +124,26 @@ ImpactResponse respond(const Impact& impact, const PlanarMotion& motion, double 
         mobility, velocity, response.restitution,
         {.kind = settings.frictionKind, .value = response.friction}, settings.method);
   }
-  apply(response, onVehicle(response.contact.impulse, impact.normal, impact.arm), mass, yawInertia);
+  apply(response, impact, vehicle, other,
+        onVehicle(response.contact.impulse, impact.normal, impact.arm));
   return response;
 }
 
-ImpactResponse plainResponse(const Impact& impact, const PlanarMotion& motion, double mass,
-                             double yawInertia, const PlanarImpulse& impulse) {
-  const ContactBody vehicle = bodyAt(impact, motion, mass, yawInertia);
-  const ContactVelocity velocity = contactVelocity(vehicle, impact.normal);
-  ImpactResponse response = before(motion, velocity);
+ImpactResponse plainResponse(const Impact& impact, const PlanarBody& vehicle,
+                             const PlanarImpulse& impulse) {
+  const auto velocityOf = [&](const PlanarMotion& motion) {
+    return contactVelocity(
+        {.arm = impact.arm, .velocity = motion.velocity, .yawRate = motion.yawRate}, impact.normal);
+  };
+  ImpactResponse response = before(vehicle, {}, velocityOf(vehicle.motion));
   response.energyAsked = std::numeric_limits<double>::quiet_NaN();
   response.contact.impulse = {.normal = impulse.linear.dot(impact.normal),
                               .tangent = impulse.linear.dot(turnedLeft(impact.normal))};
   response.contact.criticalRatio = std::numeric_limits<double>::quiet_NaN();
-  apply(response, impulse, mass, yawInertia);
-  response.contact.velocityAfter =
-      contactVelocity(bodyAt(impact, response.after, mass, yawInertia), impact.normal);
+  apply(response, impact, vehicle, {}, impulse);
+  response.contact.velocityAfter = velocityOf(response.after);
   response.contact.energyChange =
-      yawPlaneEnergy(response.after, mass, yawInertia) - yawPlaneEnergy(motion, mass, yawInertia);
+      PlanarBody{vehicle.mass, vehicle.yawInertia, response.after}.energy() - vehicle.energy();
   response.contact.regime = Regime::sticking;
   return response;
 }

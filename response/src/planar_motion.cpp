@@ -16,6 +16,12 @@ Placement::Placement(Vector2 itsPosition, double yaw) : position(std::move(itsPo
   sine = std::sin(yaw);
 }
 
+PlanarMotion advanced(PlanarMotion motion, double time) {
+  motion.position += time * motion.velocity;
+  motion.yaw += time * motion.yawRate;
+  return motion;
+}
+
 bool isFinite(const PlanarMotion& motion) {
   return motion.position.allFinite() && motion.velocity.allFinite() && std::isfinite(motion.yaw) &&
          std::isfinite(motion.yawRate);

@@ -1,7 +1,10 @@
 #include "bumper/response/speculative_contact.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "tolerances.h"
 
 namespace bumper {
 
@@ -10,30 +13,10 @@ namespace {
 // By which a point may pass its wall, m: more than what rounds in a free motion.
 constexpr double allowance = 1e-6;
 
-// What slides along a wall or its end in a free motion may be so deep in it when the step is over,
-// m: a corner, and an end in a side.
+// A corner that slides along a wall in a free motion may be so deep in it when the step is over, m.
 constexpr double slidingCorner = 1e-4;
-constexpr double slidingEnd = 0.05;
 
 constexpr std::size_t thirds = 3;
-
-// A wall's end or a post before one side of the outline.
-struct Facing {
-  Vector2 out;        // the side's normal outwards, in the vehicle's frame
-  double gap;         // m
-  double fromMiddle;  // of the side, along it, m
-  double halfLength;  // of the side, m
-};
-
-// `place` is in the vehicle's frame.
-std::array<Facing, 4> facings(const Outline& outline, const Vector2& place) {
-  const double half = 0.5 * (outline.front + outline.rear);
-  const double ahead = place.x() - 0.5 * (outline.front - outline.rear);
-  return {{{{1.0, 0.0}, place.x() - outline.front, place.y(), outline.halfWidth},
-           {{-1.0, 0.0}, -place.x() - outline.rear, place.y(), outline.halfWidth},
-           {{0.0, 1.0}, place.y() - outline.halfWidth, ahead, half},
-           {{0.0, -1.0}, -place.y() - outline.halfWidth, ahead, half}}};
-}
 
 // Where two walls meet each has an end there.
 bool isOne(const SpeculativeContact& a, const SpeculativeContact& b) {
@@ -42,8 +25,9 @@ bool isOne(const SpeculativeContact& a, const SpeculativeContact& b) {
   return (a.arm - b.arm).cwiseAbs().maxCoeff() < closer && a.normal.dot(b.normal) > cosine;
 }
 
-std::size_t thirdOf(const Facing& facing) {
-  const double share = 0.5 * (facing.fromMiddle / facing.halfLength + 1.0);
+// Which third of a side a place along it belongs to.
+std::size_t thirdOf(const OutlineSide& side, double along) {
+  const double share = (along - side.low) / (side.high - side.low);
   return static_cast<std::size_t>(std::clamp(share, 0.0, 0.99) * thirds);
 }
 
@@ -83,29 +67,33 @@ void SpeculativeContacts::add(std::size_t place, SpeculativeContact contact, dou
   }
 }
 
-void SpeculativeContacts::addEnd(const WallSegment& wall, const Vector2& wallEnd, double depth) {
-  const std::array<Facing, 4> sides = facings(outline_, to_.local(wallEnd));
-  double nearest = sides.front().gap;
-  for (const Facing& facing : sides) nearest = std::max(nearest, facing.gap);
-  for (std::size_t side = 0; side < sides.size(); ++side) {
-    const Facing& facing = sides[side];
-    const double gap = facing.gap - wall.radius;
+void SpeculativeContacts::addEnd(const Segment& wall, const Vector2& wallEnd, double depth) {
+  const Vector2 place = to_.local(wallEnd);
+  const std::array<OutlineSide, 4> sides = outline_.sides();
+  const auto distanceTo = [&](const OutlineSide& side) { return side.out.dot(place) - side.reach; };
+  double nearest = distanceTo(sides.front());
+  for (const OutlineSide& side : sides) nearest = std::max(nearest, distanceTo(side));
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const OutlineSide& side = sides[i];
+    const double distance = distanceTo(side);
+    const double gap = distance - wall.radius;
     // What is in the outline came in over the nearest side.
-    const double deepest = facing.gap == nearest ? depth + slidingEnd : 0.0;
+    const double deepest = distance == nearest ? depth + slidingDepth : 0.0;
     if (gap < -deepest || gap > distance_) continue;
-    if (std::abs(facing.fromMiddle) > facing.halfLength + touchTolerance) continue;
-    const Vector2 normal = -to_.turned(facing.out);
-    add(4 + thirds * side + thirdOf(facing),
+    const double along = turnedLeft(side.out).dot(place);
+    if (along < side.low - touchTolerance || along > side.high + touchTolerance) continue;
+    const Vector2 normal = -to_.turned(side.out);
+    add(4 + thirds * i + thirdOf(side, along),
         {.wall = wall.id,
-         .settings = wall.settings,
+         .surface = wall.surface,
          .normal = normal,
-         .arm = wallEnd - to_.position + facing.gap * normal,
+         .arm = wallEnd - to_.position + distance * normal,
          .gap = gap},
         depth);
   }
 }
 
-void SpeculativeContacts::addWall(const WallSegment& wall, const Overlap* touch, double depth) {
+void SpeculativeContacts::addWall(const Segment& wall, const Overlap* touch, double depth) {
   const bool byFace = touch != nullptr && !touch->byEnd;
   if (!wall.isPost()) {
     const Overlap line = byFace ? *touch : lineOf(wall, from_.position);
@@ -120,11 +108,7 @@ void SpeculativeContacts::addWall(const WallSegment& wall, const Overlap* touch,
       const double along = tangent.dot(place);
       if (along < line.start - touchTolerance || along > line.end + touchTolerance) continue;
       add(k,
-          {.wall = wall.id,
-           .settings = wall.settings,
-           .normal = line.normal,
-           .arm = arm,
-           .gap = gap},
+          {.wall = wall.id, .surface = wall.surface, .normal = line.normal, .arm = arm, .gap = gap},
           depth);
     }
   }
@@ -132,7 +116,7 @@ void SpeculativeContacts::addWall(const WallSegment& wall, const Overlap* touch,
     // Wherever on the outline it is when the step is over.
     add(4 + 4 * thirds,
         {.wall = wall.id,
-         .settings = wall.settings,
+         .surface = wall.surface,
          .normal = touch->normal,
          .arm = to_.turned(from_.turnedBack(firstPoint(from_.position, *touch).arm)),
          .gap = std::min(-touch->depth, 0.0)},

@@ -1,7 +1,10 @@
 #include "bumper/response/sweep.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "tolerances.h"
 
 namespace bumper {
 
@@ -9,9 +12,6 @@ namespace {
 
 // Points that touch and part more slowly than this, m/s, slide over each other.
 constexpr double slidingSpeed = 1e-3;
-
-// How far corners may have gone behind a wall's line while an end of the wall slid along a side, m.
-constexpr double slidingDepth = 0.05;
 
 // Bounds the work where two points part and meet again and again.
 constexpr int maxLooks = 200;
@@ -38,10 +38,10 @@ struct Flight {
   }
 };
 
-// The first time at which a gap closes. `speed` bounds its rate, `bend` the rate's own rate, so
-// that nothing between two looks can be missed.
+// The first time at which a gap closes. Conservative advancement: `speed` bounds its rate,
+// `acceleration` the rate's own rate, so that nothing between two looks can be missed.
 template <typename GapOf>
-double firstClosed(const Flight& flight, const GapOf& gapOf, double speed, double bend,
+double firstClosed(const Flight& flight, const GapOf& gapOf, double speed, double acceleration,
                    double until) {
   constexpr double closed = 0.5 * touchTolerance;
   const double from = flight.from;
@@ -53,9 +53,9 @@ double firstClosed(const Flight& flight, const GapOf& gapOf, double speed, doubl
     // Before they touch they have to be opposite each other, and neither apart nor in each other.
     double wait = std::max(gap.aside, 0.0) / speed;
     if (gap.distance > closed) {
-      wait = std::max(wait, leastTime(gap.distance, -gap.rate, bend));
+      wait = std::max(wait, leastTime(gap.distance, -gap.rate, acceleration));
     } else if (gap.distance < -touchTolerance) {
-      wait = std::max({wait, leastTime(closed - gap.distance, gap.rate, bend), shortest});
+      wait = std::max({wait, leastTime(closed - gap.distance, gap.rate, acceleration), shortest});
     } else if (!gap.counts()) {
       wait = std::max(wait, shortest);
     } else if (gap.rate < -restTolerance) {
@@ -63,8 +63,8 @@ double firstClosed(const Flight& flight, const GapOf& gapOf, double speed, doubl
       return std::clamp(time - gap.distance / gap.rate, from, until);
     } else {
       // They part, and may approach again; what only slides is looked at by others.
-      if (bend == 0.0 || gap.rate < slidingSpeed) return never;
-      wait = 2.0 * gap.rate / bend;
+      if (acceleration == 0.0 || gap.rate < slidingSpeed) return never;
+      wait = 2.0 * gap.rate / acceleration;
     }
     const double next = time + wait;
     if (!(next <= until)) return never;
@@ -81,8 +81,8 @@ double firstClosed(const Flight& flight, const GapOf& gapOf, double speed, doubl
 
 // A corner of the outline and a face of the wall. `front` is 1 if the corner comes from the
 // normal's side, −1 from the other.
-double cornerOnFace(const Flight& flight, const Vector2& corner, const WallSegment& wall,
-                    double front, double until) {
+double cornerOnFace(const Flight& flight, const Vector2& corner, const Segment& wall, double front,
+                    double until) {
   const Vector2 normal = front * wall.normal;
   const Vector2 tangent = turnedLeft(normal);
   const double start = tangent.dot(wall.start);
@@ -103,7 +103,7 @@ double cornerOnFace(const Flight& flight, const Vector2& corner, const WallSegme
 }
 
 // A point of the barrier, or the middle of a post, and a side of the outline.
-double pointOnSide(const Flight& flight, const Vector2& point, const WallSegment& wall,
+double pointOnSide(const Flight& flight, const Vector2& point, const Segment& wall,
                    const Vector2& out, double reach, double low, double high, double until) {
   const Vector2 along = turnedLeft(out);
   const double farthest = (point - flight.motion.position).norm() +
@@ -129,7 +129,7 @@ double pointOnSide(const Flight& flight, const Vector2& point, const WallSegment
 }
 
 // A corner of the outline and the round of a post.
-double cornerOnPost(const Flight& flight, const Vector2& corner, const WallSegment& post,
+double cornerOnPost(const Flight& flight, const Vector2& corner, const Segment& post,
                     double until) {
   const auto gapOf = [&](const Placement& at) {
     const Vector2 arm = at.turned(corner);
@@ -146,29 +146,23 @@ double cornerOnPost(const Flight& flight, const Vector2& corner, const WallSegme
 }
 
 // Whether a distance keeps its sign for `time` seconds, whose rate now is `rate` and changes by no
-// more than `bend`. It shrinks faster and faster at most, so that its least is at the beginning or
-// the end.
-bool keepsSign(double distance, double rate, double bend, double time) {
+// more than `acceleration`. It shrinks faster and faster at most, so that its least is at the
+// beginning or the end.
+bool keepsSign(double distance, double rate, double acceleration, double time) {
   constexpr double open = 2.0 * touchTolerance;
   if (distance < 0.0) {
     distance = -distance;
     rate = -rate;
   }
-  return distance > open && distance + (rate - 0.5 * bend * time) * time > open;
+  return distance > open && distance + (rate - 0.5 * acceleration * time) * time > open;
 }
 
 }  // namespace
 
-double leastTime(double distance, double rate, double bend) {
-  const double root = std::sqrt(rate * rate + 2.0 * bend * distance);
+double leastTime(double distance, double rate, double acceleration) {
+  const double root = std::sqrt(rate * rate + 2.0 * acceleration * distance);
   if (rate > 0.0) return 2.0 * distance / (root + rate);
-  return bend > 0.0 ? (root - rate) / bend : never;
-}
-
-PlanarMotion advanced(PlanarMotion motion, double time) {
-  motion.position += time * motion.velocity;
-  motion.yaw += time * motion.yawRate;
-  return motion;
+  return acceleration > 0.0 ? (root - rate) / acceleration : never;
 }
 
 Sweep::Sweep(const Outline& outline, const PlanarMotion& motion)
@@ -178,7 +172,7 @@ Sweep::Sweep(const Outline& outline, const PlanarMotion& motion)
       speed_(motion.velocity.norm()),
       fastest_(speed_ + std::abs(motion.yawRate) * outline.radius()) {}
 
-double Sweep::timeOfTouch(const WallSegment& wall, const Overlap* touch, double from,
+double Sweep::timeOfTouch(const Segment& wall, const Overlap* touch, double from,
                           double until) const {
   const Placement begin = from == 0.0 ? start_ : advanced(motion_, from).placement();
   const Flight flight{.motion = motion_,
@@ -213,8 +207,8 @@ double Sweep::timeOfTouch(const WallSegment& wall, const Overlap* touch, double 
     double height = wall.normal.dot(place - wall.start);
     if (std::abs(height) > way) continue;
     const double rate = wall.normal.dot(velocityAt(motion_, arm));
-    const double bend = flight.turning * flight.turning * outline_.radius();
-    if (keepsSign(height, rate, bend, until - from)) continue;
+    const double acceleration = flight.turning * flight.turning * outline_.radius();
+    if (keepsSign(height, rate, acceleration, until - from)) continue;
     if (std::abs(cross(wall.normal, place - middle)) > halfLength + way) continue;
     // A corner comes from the side that it is on, unless it has gone in a little.
     double front = 1.0;
@@ -229,16 +223,7 @@ double Sweep::timeOfTouch(const WallSegment& wall, const Overlap* touch, double 
     consider(cornerOnFace(flight, corner, wall, front, first));
   }
 
-  struct Side {
-    Vector2 out;
-    double reach, low, high;  // the span is along out turned left
-  };
-  const Side sides[] = {
-      {{1.0, 0.0}, outline_.front, -outline_.halfWidth, outline_.halfWidth},
-      {{-1.0, 0.0}, outline_.rear, -outline_.halfWidth, outline_.halfWidth},
-      {{0.0, 1.0}, outline_.halfWidth, -outline_.front, outline_.rear},
-      {{0.0, -1.0}, outline_.halfWidth, -outline_.rear, outline_.front},
-  };
+  const std::array<OutlineSide, 4> sides = outline_.sides();
   const auto considerSides = [&](const Vector2& point, const Vector2& local) {
     // As seen from the turning vehicle the point moves no faster than that.
     const double farthest = local.norm() + way;
@@ -246,14 +231,14 @@ double Sweep::timeOfTouch(const WallSegment& wall, const Overlap* touch, double 
         (speed_ + flight.turning * farthest) * (until - from) + 2.0 * touchTolerance;
     const Vector2 rate =
         -flight.first.turnedBack(motion_.velocity) - motion_.yawRate * turnedLeft(local);
-    const double bend = flight.turning * (2.0 * speed_ + flight.turning * farthest);
-    for (const Side& side : sides) {
+    const double acceleration = flight.turning * (2.0 * speed_ + flight.turning * farthest);
+    for (const OutlineSide& side : sides) {
       const double away = side.out.dot(local) - side.reach - wall.radius;
       const double along = turnedLeft(side.out).dot(local);
       if (std::abs(away) > itsWay || std::max(side.low - along, along - side.high) > itsWay) {
         continue;
       }
-      if (keepsSign(away, side.out.dot(rate), bend, until - from)) continue;
+      if (keepsSign(away, side.out.dot(rate), acceleration, until - from)) continue;
       consider(pointOnSide(flight, point, wall, side.out, side.reach, side.low - touchTolerance,
                            side.high + touchTolerance, first));
     }

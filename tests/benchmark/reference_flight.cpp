@@ -591,7 +591,7 @@ class FlightComputer {
                         .normal = contact.normal.cast<double>(),
                         .arm = contact.arm.cast<double>()};
     const ImpactResponse response =
-        respond(impact, toMotion(state_), vehicle_.mass, vehicle_.yawInertia, settings_,
+        respond(impact, freeBody(vehicle_, toMotion(state_)), settings_,
                 impulses < fullRestitution ? Rebound::as_set : Rebound::none);
     state_.velocity = response.after.velocity.cast<Real>();
     state_.yawRate = response.after.yawRate;

@@ -11,6 +11,8 @@
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/response/error.h"
 #include "bumper/response/force_pulse.h"
+#include "mean_contact_scheme.h"
+#include "ode_scheme.h"
 #include "ode_world.h"
 #ifdef BUMPER_BULLET
 #include "bullet_scheme.h"
@@ -25,55 +27,11 @@ using examples::YawPlaneCar;
 // Contacts of a pair that ODE's programs usually ask for.
 constexpr int mostContacts = 8;
 
-/// What all schemes on ODE share: the car, its tyres, the loop and the clock.
-class OdeScheme : public Scheme {
- public:
-  explicit OdeScheme(Setting setting) : setting_(setting) {}
-
-  RunResult run(const Run& run) final {
-    const ImpactCase& impact = *run.impactCase;
-    YawPlaneCar car(ode_.world, ode_.space, impact.car, Eigen::Vector3d::Zero(), 0.0, 0.0);
-    place(car, impact.start);
-    car.steer(impact.steering);
-    dRandSetSeed(1);
-    begin(run, car);
-    const VehicleParameters& body = impact.car.body;
-    const double energy = yawPlaneEnergy(impact.start, body.mass, body.yawInertia);
-    double most = energy;
-    const double clock = cpuTime();
-    const auto steps = static_cast<int>(std::lround(run.reference->duration / run.step));
-    for (int k = 0; k < steps; ++k) {
-      if (setting_ == Setting::tyres) car.addTyreForces();
-      step(run, k);
-      if (run.watchEnergy) {
-        most = std::max(most, yawPlaneEnergy(motionOf(car), body.mass, body.yawInertia));
-      }
-    }
-    RunResult result;
-    result.cpuTime = cpuTime() - clock;
-    result.energyGain = most / energy - 1.0;
-    result.end = motionOf(car);
-    finish();
-    return result;
-  }
-
- protected:
-  virtual void begin(const Run& run, const YawPlaneCar& car) = 0;
-  virtual void step(const Run& run, int index) = 0;
-  virtual void finish() {}
-
-  [[nodiscard]] const CarWorld& ode() const { return ode_; }
-
- private:
-  Setting setting_;
-  CarWorld ode_;
-};
-
 /// Bumper: its pairs are left out of ODE's contacts.
 class BumperScheme : public OdeScheme {
  public:
-  BumperScheme(Setting setting, int triangles, Method method, ContactSource source)
-      : OdeScheme(setting), method_(method), source_(source), scene_(wallScene(triangles)) {}
+  BumperScheme(Setting setting, int triangles, Method method)
+      : OdeScheme(setting), method_(method), scene_(wallScene(triangles)) {}
 
  protected:
   void begin(const Run& run, const YawPlaneCar& car) override {
@@ -83,7 +41,6 @@ class BumperScheme : public OdeScheme {
       ResponderOptions options;
       options.response = law.settings;
       options.response.method = method_;
-      options.contactSource = source_;
       responder_.emplace(ode().world, options);
       responder_->addBarrier(scene_, {.space = ode().space});
     }
@@ -103,7 +60,6 @@ class BumperScheme : public OdeScheme {
 
  private:
   Method method_;
-  ContactSource source_;
   Scene scene_;
   std::optional<Responder> responder_;
   int law_ = 0;
@@ -230,17 +186,10 @@ class ToldScheme : public OdeScheme {
 
 std::unique_ptr<Scheme> makeScheme(const std::string& name, Setting setting, int triangles) {
   if (name == "bumper") {
-    return std::make_unique<BumperScheme>(setting, triangles, Method::bumper,
-                                          ContactSource::exact_cut);
+    return std::make_unique<BumperScheme>(setting, triangles, Method::bumper);
   }
-  if (name == "paper") {
-    return std::make_unique<BumperScheme>(setting, triangles, Method::paper,
-                                          ContactSource::exact_cut);
-  }
-  if (name == "ode_contacts") {
-    return std::make_unique<BumperScheme>(setting, triangles, Method::bumper,
-                                          ContactSource::ode_contacts);
-  }
+  if (name == "paper") return std::make_unique<BumperScheme>(setting, triangles, Method::paper);
+  if (name == "ode_contacts") return makeMeanContactScheme(setting, triangles);
   using Stepper = JointScheme::Stepper;
   if (name == "ode_quickstep") {
     return std::make_unique<JointScheme>(setting, triangles, Stepper::quick, false);

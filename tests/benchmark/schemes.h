@@ -38,7 +38,8 @@ class Scheme {
 };
 
 /// The schemes by the names of accuracy.json:
-///   bumper, paper, ode_contacts      the library; Method::paper; ContactSource::ode_contacts
+///   bumper, paper                    the library; Method::paper
+///   ode_contacts                     the library's law at the mean of dCollide's contacts
 ///   ode_quickstep, ode_worldstep     ODE's contact joints as dCollide gives them
 ///   ode_quickstep_true_normal        with every contact's normal replaced by the wall's
 ///   reference_impulses               ODE told the reference's impulses and times: tyres only

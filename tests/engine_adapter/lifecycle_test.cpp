@@ -173,21 +173,5 @@ TEST(Lifecycle, AHundredKilometresFromTheOrigin) {
   EXPECT_NEAR(events[0].contact.y(), away, 1e-9);
 }
 
-TEST(Lifecycle, OdesContactsAsASource) {
-  OdeWorld ode;
-  ResponderOptions options;
-  options.contactSource = ContactSource::ode_contacts;
-  Responder responder(ode.world, options);
-  responder.addBarrier(straightWall({-30.0, 0.0}, {30.0, 0.0}, 1.0));
-  BoxCar car(ode.world);
-  responder.addVehicle(car.body, car.parameters);
-  placeAtWall(car, 0.0);
-  const auto events = responder.step(h);
-  ASSERT_FALSE(events.empty());
-  EXPECT_GT(events[0].impulseNormal, 0.0);
-  dWorldQuickStep(ode.world, h);
-  EXPECT_GT(car.velocity().y(), 0.0);
-}
-
 }  // namespace
 }  // namespace bumper::tests

@@ -23,19 +23,16 @@ constexpr VehicleParameters car{.mass = 1500.0,
                                 .massCentreHeight = 0.55};
 
 const ResponseSettings paperSettings;
+const std::array paperSurface{Surface{.settings = &paperSettings}};
 
-WallSegment wallBetween(const Vector2& start, const Vector2& end, int id = 0) {
-  return {.start = start,
-          .end = end,
-          .normal = turnedLeft((end - start).normalized()),
-          .id = id,
-          .settings = &paperSettings};
+Segment wallBetween(const Vector2& start, const Vector2& end, int id = 0) {
+  return {.start = start, .end = end, .normal = turnedLeft((end - start).normalized()), .id = id};
 }
 
 /// A wall with the given unit normal into which the outline reaches `depth` deep, reaching `left`
 /// and `right` along the tangent from the middle of the outline.
-WallSegment wallAt(const PlanarMotion& motion, const Vector2& normal, double depth, int id = 0,
-                   double left = 50.0, double right = 50.0) {
+Segment wallAt(const PlanarMotion& motion, const Vector2& normal, double depth, int id = 0,
+               double left = 50.0, double right = 50.0) {
   double lowest = 0.0;
   for (const Vector2& corner : Outline(car).corners()) {
     lowest = std::min(lowest, normal.dot(rotated(corner, motion.yaw)));
@@ -46,16 +43,16 @@ WallSegment wallAt(const PlanarMotion& motion, const Vector2& normal, double dep
 
 /// Two walls that meet, both facing the vehicle; it may overlap either or both.
 /// Opening is the angle between them where the vehicle is, rad.
-std::array<WallSegment, 2> insideCorner(Random& random, const PlanarMotion& motion,
-                                        const Vector2& normal, double opening) {
+std::array<Segment, 2> insideCorner(Random& random, const PlanarMotion& motion,
+                                    const Vector2& normal, double opening) {
   const double turn = random.sign() * (std::numbers::pi - opening);
   const Vector2 second = rotated(normal, turn);
-  const WallSegment a = wallAt(motion, normal, random.uniform(0.001, 0.2), 0);
-  const WallSegment b = wallAt(motion, second, random.uniform(0.001, 0.2), 1);
+  const Segment a = wallAt(motion, normal, random.uniform(0.001, 0.2), 0);
+  const Segment b = wallAt(motion, second, random.uniform(0.001, 0.2), 1);
   // Each ends where it meets the other, and goes on where it is in front of that.
   const Vector2 along = (a.end - a.start).normalized();
   const Vector2 meeting = a.start + second.dot(b.start - a.start) / second.dot(along) * along;
-  const auto inFrontOf = [&](const WallSegment& wall, const Vector2& other, int id) {
+  const auto inFrontOf = [&](const Segment& wall, const Vector2& other, int id) {
     Vector2 away = (wall.end - wall.start).normalized();
     if (away.dot(other) < 0.0) away = -away;
     return wallBetween(meeting, meeting + 50.0 * away, id);
@@ -78,7 +75,7 @@ double energyOf(const PlanarMotion& motion) {
 }
 
 /// How fast the first-touched point of an overlap closes on the wall, m/s.
-double approachSpeed(const PlanarMotion& motion, const WallSegment& wall, const Overlap& overlap) {
+double approachSpeed(const PlanarMotion& motion, const Segment& wall, const Overlap& overlap) {
   const ContactPoint first = contactPoint(Outline(car), motion.placement(), wall, overlap, 0.0);
   return -velocityAt(motion, first.arm).dot(overlap.normal);
 }
@@ -104,9 +101,9 @@ std::pair<PlanarMotion, Vector2> randomApproach(Random& random) {
 
 TEST(CollisionStep, HeadOnReboundsWithTheCurvesRestitution) {
   const PlanarMotion motion{.velocity = {20.0, 0.0}};
-  const WallSegment wall = wallAt(motion, {-1.0, 0.0}, 0.07, 42);
+  const Segment wall = wallAt(motion, {-1.0, 0.0}, 0.07, 42);
   CollisionStep step;
-  const StepOutcome outcome = step.resolve(car, motion, {&wall, 1}, 0.0);
+  const StepOutcome outcome = step.resolve(car, motion, {{&wall, 1}, paperSurface}, 0.0);
   ASSERT_EQ(outcome.impacts.size(), 1U);
   EXPECT_EQ(outcome.impacts[0].impact.wall, 42);
   EXPECT_NEAR(outcome.impacts[0].impact.depth, 0.07, 1e-12);
@@ -124,8 +121,8 @@ TEST(CollisionStep, OneWallIsOverlapContactPointAndResponse) {
   int exact = 0;
   for (int i = 0; i < 10'000; ++i) {
     const auto [motion, normal] = randomApproach(random);
-    const WallSegment wall = wallAt(motion, normal, random.uniform(0.001, 0.2), i);
-    const StepOutcome outcome = step.resolve(car, motion, {&wall, 1}, 0.0);
+    const Segment wall = wallAt(motion, normal, random.uniform(0.001, 0.2), i);
+    const StepOutcome outcome = step.resolve(car, motion, {{&wall, 1}, paperSurface}, 0.0);
 
     const std::optional<Overlap> overlap = findOverlap(Outline(car), motion.placement(), wall);
     ASSERT_TRUE(overlap.has_value());
@@ -141,8 +138,7 @@ TEST(CollisionStep, OneWallIsOverlapContactPointAndResponse) {
     if (-velocityAt(motion, contact.arm).dot(overlap->normal) < 2.0 * paperSettings.restSpeed) {
       continue;
     }
-    const ImpactResponse expected =
-        respond(impact, motion, car.mass, car.yawInertia, paperSettings);
+    const ImpactResponse expected = respond(impact, freeBody(car, motion), paperSettings);
     ASSERT_GE(outcome.impacts.size(), 1U) << i;
     const StepImpact& first = outcome.impacts[0];
     EXPECT_EQ(first.impact.wall, i);
@@ -167,7 +163,7 @@ TEST(CollisionStep, OneWallIsOverlapContactPointAndResponse) {
 
 /// What must hold after any step.
 void expectSound(const StepOutcome& outcome, const PlanarMotion& motion,
-                 std::span<const WallSegment> walls, int i) {
+                 std::span<const Segment> walls, int i) {
   ASSERT_LE(outcome.impacts.size(), static_cast<std::size_t>(CollisionStep::maxImpacts));
   ASSERT_TRUE(isFinite(outcome.after)) << i;
   ASSERT_LE(energyOf(outcome.after), energyOf(motion) * (1.0 + 1e-12)) << i;
@@ -188,7 +184,7 @@ void expectSound(const StepOutcome& outcome, const PlanarMotion& motion,
   expectSameMotion(outcome.after, afterImpulse(motion, outcome.impulse, car.mass, car.yawInertia),
                    1e-9, std::to_string(i));
   if (!outcome.settled) return;
-  for (const WallSegment& wall : walls) {
+  for (const Segment& wall : walls) {
     const std::optional<Overlap> overlap = findOverlap(Outline(car), motion.placement(), wall);
     if (!overlap) continue;
     ASSERT_LE(approachSpeed(outcome.after, wall, *overlap), 1e-6) << i << " wall " << wall.id;
@@ -200,8 +196,8 @@ TEST(CollisionStep, OneWallIsAlwaysLeft) {
   CollisionStep step;
   for (int i = 0; i < 30'000; ++i) {
     const auto [motion, normal] = randomApproach(random);
-    const WallSegment wall = wallAt(motion, normal, random.uniform(0.001, 0.3));
-    const StepOutcome outcome = step.resolve(car, motion, {&wall, 1}, 0.0);
+    const Segment wall = wallAt(motion, normal, random.uniform(0.001, 0.3));
+    const StepOutcome outcome = step.resolve(car, motion, {{&wall, 1}, paperSurface}, 0.0);
     ASSERT_TRUE(outcome.settled) << i;
     expectSound(outcome, motion, {&wall, 1}, i);
     if (HasFatalFailure()) return;
@@ -215,8 +211,8 @@ TEST(CollisionStep, InsideCornersLoseEnergyAndAreLeft) {
   for (int i = 0; i < 30'000; ++i) {
     const auto [motion, normal] = randomApproach(random);
     const double opening = random.uniform(90.0, 170.0) * degree;
-    const std::array<WallSegment, 2> walls = insideCorner(random, motion, normal, opening);
-    const StepOutcome outcome = step.resolve(car, motion, walls, 0.0);
+    const std::array<Segment, 2> walls = insideCorner(random, motion, normal, opening);
+    const StepOutcome outcome = step.resolve(car, motion, {walls, paperSurface}, 0.0);
     ASSERT_TRUE(outcome.settled) << i << " opening " << opening / degree;
     expectSound(outcome, motion, walls, i);
     if (HasFatalFailure()) return;
@@ -235,8 +231,8 @@ TEST(CollisionStep, WedgesLoseEnergyAndAreLeft) {
   for (int i = 0; i < 30'000; ++i) {
     const auto [motion, normal] = randomApproach(random);
     const double opening = random.uniform(5.0, 90.0) * degree;
-    const std::array<WallSegment, 2> walls = insideCorner(random, motion, normal, opening);
-    const StepOutcome outcome = step.resolve(car, motion, walls, 0.0);
+    const std::array<Segment, 2> walls = insideCorner(random, motion, normal, opening);
+    const StepOutcome outcome = step.resolve(car, motion, {walls, paperSurface}, 0.0);
     ASSERT_TRUE(outcome.settled) << i << " opening " << opening / degree;
     expectSound(outcome, motion, walls, i);
     if (HasFatalFailure()) return;
@@ -250,8 +246,8 @@ TEST(CollisionStep, LeavingAWallTakesNoImpulse) {
     auto [motion, normal] = randomApproach(random);
     motion.yawRate = 0.0;
     motion.velocity = -motion.velocity;
-    const WallSegment wall = wallAt(motion, normal, random.uniform(0.001, 0.5));
-    const StepOutcome outcome = step.resolve(car, motion, {&wall, 1}, 0.0);
+    const Segment wall = wallAt(motion, normal, random.uniform(0.001, 0.5));
+    const StepOutcome outcome = step.resolve(car, motion, {{&wall, 1}, paperSurface}, 0.0);
     ASSERT_TRUE(outcome.impacts.empty()) << i;
     ASSERT_TRUE(outcome.settled) << i;
     ASSERT_EQ(outcome.impulse.linear, Vector2::Zero());
@@ -266,15 +262,15 @@ TEST(CollisionStep, WallsOutOfReachDoNotCount) {
   CollisionStep step;
   for (int i = 0; i < 5'000; ++i) {
     const auto [motion, normal] = randomApproach(random);
-    const WallSegment near = wallAt(motion, normal, -random.uniform(0.001, 1.0));
+    const Segment near = wallAt(motion, normal, -random.uniform(0.001, 1.0));
     // In line with the outline's front, but beside it.
-    const WallSegment beside = wallAt(motion, normal, 0.1, 1, 20.0, -6.0);
-    const WallSegment walls[] = {near, beside};
-    const StepOutcome outcome = step.resolve(car, motion, walls, 0.0);
+    const Segment beside = wallAt(motion, normal, 0.1, 1, 20.0, -6.0);
+    const Segment walls[] = {near, beside};
+    const StepOutcome outcome = step.resolve(car, motion, {walls, paperSurface}, 0.0);
     ASSERT_TRUE(outcome.impacts.empty()) << i;
     ASSERT_EQ(outcome.after.velocity, motion.velocity);
   }
-  const StepOutcome none = step.resolve(car, {.velocity = {1.0, 2.0}}, {}, 0.0);
+  const StepOutcome none = step.resolve(car, {.velocity = {1.0, 2.0}}, {{}, paperSurface}, 0.0);
   EXPECT_TRUE(none.impacts.empty());
   EXPECT_TRUE(none.settled);
   EXPECT_EQ(none.after.velocity, Vector2(1.0, 2.0));
@@ -286,17 +282,17 @@ TEST(CollisionStep, TheBackOfAThickWallStaysHidden) {
   for (int i = 0; i < 5'000; ++i) {
     const auto [motion, normal] = randomApproach(random);
     const double depth = random.uniform(0.25, 0.6), thickness = random.uniform(0.05, 0.2);
-    const WallSegment front = wallAt(motion, normal, depth, 1);
-    WallSegment back = front;
+    const Segment front = wallAt(motion, normal, depth, 1);
+    Segment back = front;
     back.start -= thickness * normal;
     back.end -= thickness * normal;
     back.normal = -front.normal;
     back.id = 2;
-    const WallSegment cap = wallBetween(front.end, back.end, 3);
-    const WallSegment otherCap = wallBetween(back.start, front.start, 4);
-    const WallSegment walls[] = {back, cap, front, otherCap};
-    const PlanarMotion expected = step.resolve(car, motion, {&front, 1}, 0.0).after;
-    const StepOutcome outcome = step.resolve(car, motion, walls, 0.0);
+    const Segment cap = wallBetween(front.end, back.end, 3);
+    const Segment otherCap = wallBetween(back.start, front.start, 4);
+    const Segment walls[] = {back, cap, front, otherCap};
+    const PlanarMotion expected = step.resolve(car, motion, {{&front, 1}, paperSurface}, 0.0).after;
+    const StepOutcome outcome = step.resolve(car, motion, {walls, paperSurface}, 0.0);
     for (const StepImpact& impact : outcome.impacts) ASSERT_EQ(impact.impact.wall, 1) << i;
     expectSameMotion(outcome.after, expected, 1e-9, std::to_string(i));
   }
@@ -313,13 +309,13 @@ TEST(CollisionStep, TheEndCapBehindAFaceStaysHidden) {
     const double end = random.uniform(-0.8, 0.8);  // of the wall, across the car
     const double side = random.sign();
     const double face = car.massCentreToFront - depth;
-    const WallSegment front = wallBetween({face, end}, {face, end + 20.0 * side}, 1);
-    const WallSegment back =
+    const Segment front = wallBetween({face, end}, {face, end + 20.0 * side}, 1);
+    const Segment back =
         wallBetween({face + thickness, end + 20.0 * side}, {face + thickness, end}, 2);
-    const WallSegment cap = wallBetween({face + thickness, end}, {face, end}, 3);
-    const WallSegment walls[] = {cap, back, front};
-    const PlanarMotion expected = step.resolve(car, motion, {&front, 1}, 0.0).after;
-    const StepOutcome outcome = step.resolve(car, motion, walls, 0.0);
+    const Segment cap = wallBetween({face + thickness, end}, {face, end}, 3);
+    const Segment walls[] = {cap, back, front};
+    const PlanarMotion expected = step.resolve(car, motion, {{&front, 1}, paperSurface}, 0.0).after;
+    const StepOutcome outcome = step.resolve(car, motion, {walls, paperSurface}, 0.0);
     const std::string where = std::to_string(i) + ": speed " + std::to_string(motion.velocity.x()) +
                               " end " + std::to_string(end) + " side " + std::to_string(side) +
                               " depth " + std::to_string(depth) + " thickness " +
@@ -341,13 +337,13 @@ TEST(CollisionStep, TheEndCapAnswersACarFromTheSide) {
     const double overlap = random.uniform(0.01, 0.3);
     const double end = side * (0.5 * car.width - overlap);
     const double face = random.uniform(-1.0, 1.5), thickness = random.uniform(0.05, 0.5);
-    const WallSegment front = wallBetween({face, end}, {face, end + 20.0 * side}, 1);
-    const WallSegment back =
+    const Segment front = wallBetween({face, end}, {face, end + 20.0 * side}, 1);
+    const Segment back =
         wallBetween({face + thickness, end + 20.0 * side}, {face + thickness, end}, 2);
-    const WallSegment cap = wallBetween({face + thickness, end}, {face, end}, 3);
-    const WallSegment walls[] = {front, back, cap};
-    const PlanarMotion expected = step.resolve(car, motion, {&cap, 1}, 0.0).after;
-    const StepOutcome outcome = step.resolve(car, motion, walls, 0.0);
+    const Segment cap = wallBetween({face + thickness, end}, {face, end}, 3);
+    const Segment walls[] = {front, back, cap};
+    const PlanarMotion expected = step.resolve(car, motion, {{&cap, 1}, paperSurface}, 0.0).after;
+    const StepOutcome outcome = step.resolve(car, motion, {walls, paperSurface}, 0.0);
     ASSERT_FALSE(outcome.impacts.empty())
         << i << " overlap " << overlap << " thickness " << thickness << " face " << face;
     ASSERT_EQ(outcome.impacts[0].impact.wall, 3) << i;
@@ -362,7 +358,7 @@ TEST(CollisionStep, TheWallTouchedFirstAnswersFirst) {
   int compared = 0;
   for (int i = 0; i < 10'000; ++i) {
     const auto [motion, normal] = randomApproach(random);
-    const std::array<WallSegment, 2> walls =
+    const std::array<Segment, 2> walls =
         insideCorner(random, motion, normal, random.uniform(60.0, 170.0) * degree);
     std::array<double, 2> ago{};  // since first touch, s
     bool both = true;
@@ -377,7 +373,7 @@ TEST(CollisionStep, TheWallTouchedFirstAnswersFirst) {
     }
     // Far enough apart that the turning of the car meanwhile does not matter.
     if (!both || std::max(ago[0], ago[1]) < 1.3 * std::min(ago[0], ago[1])) continue;
-    const StepOutcome outcome = step.resolve(car, motion, walls, 0.0);
+    const StepOutcome outcome = step.resolve(car, motion, {walls, paperSurface}, 0.0);
     ASSERT_FALSE(outcome.impacts.empty()) << i;
     ASSERT_EQ(outcome.impacts[0].impact.wall, ago[0] > ago[1] ? 0 : 1) << i;
     ++compared;
@@ -390,14 +386,15 @@ TEST(CollisionStep, NeighboursInLineKeepTheirOwnSettings) {
   soft.restitution = AngleCurve::constant(0.0);
   hard.restitution = AngleCurve::constant(0.25);
   const PlanarMotion motion{.velocity = {20.0, 0.0}};
-  WallSegment left = wallBetween({2.05, 1.0}, {2.05, 30.0}, 1);
-  WallSegment right = wallBetween({2.05, -30.0}, {2.05, 1.0}, 2);
+  Segment left = wallBetween({2.05, 1.0}, {2.05, 30.0}, 1);
+  Segment right = wallBetween({2.05, -30.0}, {2.05, 1.0}, 2);
+  right.surface = 1;
   CollisionStep step;
   for (const bool softRight : {true, false}) {
-    left.settings = softRight ? &hard : &soft;
-    right.settings = softRight ? &soft : &hard;
-    const WallSegment walls[] = {left, right};
-    const StepOutcome outcome = step.resolve(car, motion, walls, 0.0);
+    const std::array surfaces{Surface{.settings = softRight ? &hard : &soft},
+                              Surface{.settings = softRight ? &soft : &hard}};
+    const Segment walls[] = {left, right};
+    const StepOutcome outcome = step.resolve(car, motion, {walls, surfaces}, 0.0);
     ASSERT_EQ(outcome.impacts.size(), 1U);
     EXPECT_EQ(outcome.impacts[0].impact.wall, 2);
     EXPECT_NEAR(outcome.after.velocity.x(), softRight ? 0.0 : -5.0, 1e-9);
@@ -405,14 +402,14 @@ TEST(CollisionStep, NeighboursInLineKeepTheirOwnSettings) {
 }
 
 /// The wall cut into pieces of random length, in random order and direction.
-std::vector<WallSegment> segmented(Random& random, const WallSegment& wall) {
-  std::vector<WallSegment> pieces;
+std::vector<Segment> segmented(Random& random, const Segment& wall) {
+  std::vector<Segment> pieces;
   const Vector2 along = (wall.end - wall.start).normalized();
   const double length = (wall.end - wall.start).norm();
   double from = 0.0;
   while (from < length) {
     const double to = std::min(length, from + random.uniform(0.2, 5.0));
-    WallSegment piece = wall;
+    Segment piece = wall;
     piece.start = wall.start + from * along;
     piece.end = wall.start + to * along;
     if (random.chance(0.5)) std::swap(piece.start, piece.end);
@@ -430,11 +427,12 @@ TEST(CollisionStep, AWallInPiecesIsOneWall) {
   CollisionStep step;
   for (int i = 0; i < 10'000; ++i) {
     const auto [motion, normal] = randomApproach(random);
-    const WallSegment wall = wallAt(motion, normal, random.uniform(0.001, 0.3));
-    const StepOutcome whole = step.resolve(car, motion, {&wall, 1}, 0.0);
+    const Segment wall = wallAt(motion, normal, random.uniform(0.001, 0.3));
+    const StepOutcome whole = step.resolve(car, motion, {{&wall, 1}, paperSurface}, 0.0);
     const PlanarMotion expected = whole.after;
     const std::size_t count = whole.impacts.size();
-    const StepOutcome outcome = step.resolve(car, motion, segmented(random, wall), 0.0);
+    const StepOutcome outcome =
+        step.resolve(car, motion, {segmented(random, wall), paperSurface}, 0.0);
     ASSERT_EQ(outcome.impacts.size(), count) << i;
     expectSameMotion(outcome.after, expected, 1e-8, std::to_string(i));
     if (HasFatalFailure()) return;
@@ -447,15 +445,15 @@ TEST(CollisionStep, TheOrderOfTheWallsDoesNotMatter) {
   for (int i = 0; i < 10'000; ++i) {
     const auto [motion, normal] = randomApproach(random);
     const Vector2 second = rotated(normal, random.sign() * random.uniform(20.0, 120.0) * degree);
-    std::vector<WallSegment> walls =
+    std::vector<Segment> walls =
         segmented(random, wallAt(motion, normal, random.uniform(0.01, 0.2), 0));
-    const std::vector<WallSegment> more =
+    const std::vector<Segment> more =
         segmented(random, wallAt(motion, second, random.uniform(0.01, 0.2), 1));
     walls.insert(walls.end(), more.begin(), more.end());
-    const PlanarMotion expected = step.resolve(car, motion, walls, 0.0).after;
+    const PlanarMotion expected = step.resolve(car, motion, {walls, paperSurface}, 0.0).after;
     for (int k = 0; k < 3; ++k) {
       std::shuffle(walls.begin(), walls.end(), random.engine());
-      expectSameMotion(step.resolve(car, motion, walls, 0.0).after, expected, 1e-8,
+      expectSameMotion(step.resolve(car, motion, {walls, paperSurface}, 0.0).after, expected, 1e-8,
                        std::to_string(i));
       if (HasFatalFailure()) return;
     }
@@ -468,20 +466,20 @@ TEST(CollisionStep, TurnsWithTheFrame) {
   for (int i = 0; i < 5'000; ++i) {
     const auto [motion, normal] = randomApproach(random);
     const double angle = random.uniform(-3.0, 3.0);
-    WallSegment walls[] = {
+    Segment walls[] = {
         wallAt(motion, normal, random.uniform(0.01, 0.2), 0),
         wallAt(motion, rotated(normal, random.uniform(-2.0, 2.0)), random.uniform(0.01, 0.2), 1)};
-    const PlanarMotion expected = step.resolve(car, motion, walls, 0.0).after;
+    const PlanarMotion expected = step.resolve(car, motion, {walls, paperSurface}, 0.0).after;
     PlanarMotion seen = motion;
     seen.position = rotated(motion.position, angle);
     seen.velocity = rotated(motion.velocity, angle);
     seen.yaw += angle;
-    for (WallSegment& wall : walls) {
+    for (Segment& wall : walls) {
       wall.start = rotated(wall.start, angle);
       wall.end = rotated(wall.end, angle);
       wall.normal = rotated(wall.normal, angle);
     }
-    const PlanarMotion after = step.resolve(car, seen, walls, 0.0).after;
+    const PlanarMotion after = step.resolve(car, seen, {walls, paperSurface}, 0.0).after;
     ASSERT_NEAR((rotated(expected.velocity, angle) - after.velocity).norm(), 0.0, 1e-6) << i;
     ASSERT_NEAR(expected.yawRate, after.yawRate, 1e-6) << i;
   }
@@ -492,8 +490,8 @@ TEST(CollisionStep, AFlushHitDoesNotSpinTheCar) {
   for (const double angle : {0.0, 0.7, -2.0}) {
     PlanarMotion motion{.yaw = angle, .velocity = rotated({20.0, 0.0}, angle)};
     const Vector2 normal = rotated({-1.0, 0.0}, angle);
-    const WallSegment wall = wallAt(motion, normal, 0.05);
-    const StepOutcome outcome = step.resolve(car, motion, {&wall, 1}, 0.0);
+    const Segment wall = wallAt(motion, normal, 0.05);
+    const StepOutcome outcome = step.resolve(car, motion, {{&wall, 1}, paperSurface}, 0.0);
     EXPECT_NEAR(outcome.after.yawRate, 0.0, 1e-9) << angle;
     EXPECT_NEAR(outcome.after.velocity.dot(normal), 1.0, 1e-9) << angle;
   }
@@ -503,10 +501,12 @@ TEST(CollisionStep, WallsOfDifferentSettingsAnswerForThemselves) {
   ResponseSettings hard = paperSettings;
   hard.restitution = AngleCurve::constant(0.2);
   const PlanarMotion motion{.velocity = {20.0, 0.0}};
-  WallSegment wall = wallAt(motion, {-1.0, 0.0}, 0.05);
-  wall.settings = &hard;
+  Segment wall = wallAt(motion, {-1.0, 0.0}, 0.05);
+  wall.surface = 1;
+  const std::array surfaces{paperSurface.front(), Surface{.settings = &hard}};
   CollisionStep step;
-  EXPECT_NEAR(step.resolve(car, motion, {&wall, 1}, 0.0).after.velocity.x(), -4.0, 1e-12);
+  EXPECT_NEAR(step.resolve(car, motion, {{&wall, 1}, surfaces}, 0.0).after.velocity.x(), -4.0,
+              1e-12);
 }
 
 TEST(CollisionStep, TheSameObjectAnswersTheSame) {
@@ -514,11 +514,11 @@ TEST(CollisionStep, TheSameObjectAnswersTheSame) {
   CollisionStep used;
   for (int i = 0; i < 2'000; ++i) {
     const auto [motion, normal] = randomApproach(random);
-    const WallSegment walls[] = {wallAt(motion, normal, 0.1, 0),
-                                 wallAt(motion, rotated(normal, 1.0), 0.05, 1)};
+    const Segment walls[] = {wallAt(motion, normal, 0.1, 0),
+                             wallAt(motion, rotated(normal, 1.0), 0.05, 1)};
     CollisionStep fresh;
-    const PlanarMotion a = used.resolve(car, motion, walls, 0.0).after;
-    const PlanarMotion b = fresh.resolve(car, motion, walls, 0.0).after;
+    const PlanarMotion a = used.resolve(car, motion, {walls, paperSurface}, 0.0).after;
+    const PlanarMotion b = fresh.resolve(car, motion, {walls, paperSurface}, 0.0).after;
     ASSERT_EQ(a.velocity, b.velocity) << i;
     ASSERT_EQ(a.yawRate, b.yawRate) << i;
   }

@@ -23,7 +23,7 @@ struct Scene {
   Outline outline;
   Vector2 centre = Vector2::Zero();
   double yaw = 0.0;
-  WallSegment wall = {};
+  Segment wall = {};
 };
 
 std::ostream& operator<<(std::ostream& out, const Scene& s) {
@@ -260,7 +260,7 @@ TEST(ContactPoint, PaperFigure2) {
   const double yaw = std::numbers::pi / 4.0;
   const Vector2 corner = rotated({2.0, -1.0}, yaw);
   const Vector2 centre = Vector2(2.3, 7.0) - corner;
-  const WallSegment wall{.start = {2.0, -50.0}, .end = {2.0, 50.0}, .normal = {1.0, 0.0}};
+  const Segment wall{.start = {2.0, -50.0}, .end = {2.0, 50.0}, .normal = {1.0, 0.0}};
   const std::optional<Overlap> overlap = findOverlap(outline, {centre, yaw}, wall);
   ASSERT_TRUE(overlap.has_value());
   EXPECT_NEAR(overlap->depth, 0.3, 1e-14);

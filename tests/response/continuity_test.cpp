@@ -51,14 +51,14 @@ Rebound afterHit(double heading, double penetrationTime, double depth = shallow)
   for (const Vector2& corner : Outline(car).corners())
     lowest = std::min(lowest, normal.dot(corner));
   const Vector2 middle = (lowest + depth) * normal;
-  const WallSegment wall{.start = middle - 50.0 * turnedLeft(normal),
-                         .end = middle + 50.0 * turnedLeft(normal),
-                         .normal = normal,
-                         .id = 0,
-                         .settings = &settings};
+  const Segment wall{.start = middle - 50.0 * turnedLeft(normal),
+                     .end = middle + 50.0 * turnedLeft(normal),
+                     .normal = normal,
+                     .id = 0};
   const PlanarMotion motion{.velocity = {sixtyMilesPerHour, 0.0}};
   CollisionStep step;
-  const StepOutcome outcome = step.resolve(car, motion, {&wall, 1}, 0.0);
+  const Surface surface{.settings = &settings};
+  const StepOutcome outcome = step.resolve(car, motion, {{&wall, 1}, {&surface, 1}}, 0.0);
   EXPECT_TRUE(outcome.settled) << heading / degree;
   EXPECT_LE(yawPlaneEnergy(outcome.after, car.mass, car.yawInertia),
             yawPlaneEnergy(motion, car.mass, car.yawInertia) * (1.0 + 1e-12))
@@ -153,7 +153,7 @@ TEST(Continuity, EnergyLawDoesNotJumpWithTheAngle) {
       impact.normal = {-std::sin(angle), -std::cos(angle)};
       impact.arm = arm == Vector2::Zero() ? Vector2(-0.9 * impact.normal) : arm;
       const PlanarMotion motion{.velocity = {sixtyMilesPerHour, 0.0}};
-      const ImpactResponse response = respond(impact, motion, car.mass, car.yawInertia, settings);
+      const ImpactResponse response = respond(impact, freeBody(car, motion), settings);
       const ContactBody body{.inverseMass = 1.0 / car.mass,
                              .inverseYawInertia = 1.0 / car.yawInertia,
                              .arm = impact.arm,

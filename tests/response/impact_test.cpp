@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bumper/response/outline.h"
 #include "oracle.h"
 
 namespace bumper::tests {
@@ -37,7 +38,7 @@ Hit randomHit(Random& random) {
 }
 
 ImpactResponse answer(const Hit& hit) {
-  return respond(hit.impact, hit.motion, hit.vehicle.mass, hit.vehicle.yawInertia, hit.settings);
+  return respond(hit.impact, freeBody(hit.vehicle, hit.motion), hit.settings);
 }
 
 Situation situationOf(const Hit& hit) {

@@ -58,7 +58,7 @@ std::optional<Piece> inside(const Polygon& polygon, const Plane& start, const Pl
 }
 
 std::optional<ExactOverlap> exactOverlap(const Outline& outline, const Vector2& position,
-                                         double yaw, const WallSegment& wall) {
+                                         double yaw, const Segment& wall) {
   const Plane centre = position.cast<Real>();
   const Plane start = wall.start.cast<Real>(), end = wall.end.cast<Real>();
   const Polygon rectangle = placed(outline, centre, yaw);

@@ -39,7 +39,7 @@ struct ExactOverlap {
   Real lengthInside = 0.0L;  ///< of the wall
 };
 std::optional<ExactOverlap> exactOverlap(const Outline& outline, const Vector2& position,
-                                         double yaw, const WallSegment& wall);
+                                         double yaw, const Segment& wall);
 
 /// The wall's middle inside the outline once that is moved to the given penetration, from the
 /// mass centre.

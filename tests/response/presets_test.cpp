@@ -25,12 +25,8 @@ constexpr double kilometresPerHour = 1.0 / 3.6;
 constexpr double sixtyMph = 26.8224;  // m/s
 
 /// A piece of wall across the vehicle's way, x forward, that the front touches at x = 0.
-WallSegment wallAcross(double right, double left, const ResponseSettings& settings) {
-  return {.start = {0.0, right},
-          .end = {0.0, left},
-          .normal = {-1.0, 0.0},
-          .id = 0,
-          .settings = &settings};
+Segment wallAcross(double right, double left) {
+  return {.start = {0.0, right}, .end = {0.0, left}, .normal = {-1.0, 0.0}, .id = 0};
 }
 
 /// The vehicle heads along x, its front a hair before x = 0.
@@ -70,10 +66,11 @@ constexpr VehicleParameters paperCar{.mass = 1500.0,
 /// A flush head-on hit.
 ImpactResponse headOnResponse(const VehicleParameters& car, double speed,
                               const ResponseSettings& settings) {
-  const WallSegment wall = wallAcross(-10.0, 10.0, settings);
+  const Segment wall = wallAcross(-10.0, 10.0);
+  const Surface surface{.settings = &settings};
   CollisionStep collision;
   const StepOutcome outcome =
-      collision.resolve(car, approach(car, speed), std::span(&wall, 1), step);
+      collision.resolve(car, approach(car, speed), {{&wall, 1}, {&surface, 1}}, step);
   EXPECT_EQ(outcome.impacts.size(), 1U);
   return outcome.impacts.empty() ? ImpactResponse{} : outcome.impacts[0].response;
 }
@@ -113,8 +110,7 @@ TEST(MacmillanPreset, IsTheMiddleOfHisRanges) {
     Impact impact;
     impact.normal = {-std::sin(i * degree), -std::cos(i * degree)};
     impact.arm = {2.1, 0.9};
-    const ImpactResponse response =
-        respond(impact, motion, paperCar.mass, paperCar.yawInertia, macmillan);
+    const ImpactResponse response = respond(impact, freeBody(paperCar, motion), macmillan);
     EXPECT_NEAR(response.contact.restitution, 0.15, 1e-12) << i;
     EXPECT_LE(std::abs(response.contact.impulseRatio), 0.15 + 1e-12) << i;
   }
@@ -189,10 +185,11 @@ struct QuarterOverlap {
 };
 
 QuarterOverlap quarterOverlap(const SmallOverlapTest& test, const ResponseSettings& settings) {
-  const WallSegment wall = wallAcross(0.25 * test.vehicle.width, 3.0, settings);
+  const Segment wall = wallAcross(0.25 * test.vehicle.width, 3.0);
+  const Surface surface{.settings = &settings};
   CollisionStep collision;
   const StepOutcome outcome = collision.resolve(test.vehicle, approach(test.vehicle, test.speed),
-                                                std::span(&wall, 1), step);
+                                                {{&wall, 1}, {&surface, 1}}, step);
   EXPECT_GE(outcome.impacts.size(), 1U) << test.id;
   if (outcome.impacts.empty()) return {};
   return {.impact = outcome.impacts[0].impact,
@@ -223,8 +220,7 @@ Errors errorsOfAnalysis(const SmallOverlapTest& test, ResponseSettings settings,
   }
   PlanarMotion motion;
   motion.velocity = {test.speed, 0.0};
-  return errorsOf(
-      test, respond(impact, motion, test.vehicle.mass, test.vehicle.yawInertia, settings).after);
+  return errorsOf(test, respond(impact, freeBody(test.vehicle, motion), settings).after);
 }
 
 double rootMeanSquare(const std::vector<double>& values) {
@@ -337,20 +333,17 @@ const std::array<RedirectiveTest, 2> redirectiveTests = {
 /// The mass centre's velocity half a second after the front corner touches a long wall along x, on
 /// its left: front and rear have hit by then. No tyres.
 Vector2 exitVelocity(const RedirectiveTest& test, const ResponseSettings& settings) {
-  const WallSegment wall{.start = {-100.0, 0.0},
-                         .end = {100.0, 0.0},
-                         .normal = {0.0, -1.0},
-                         .id = 0,
-                         .settings = &settings};
+  const Segment wall{.start = {-100.0, 0.0}, .end = {100.0, 0.0}, .normal = {0.0, -1.0}, .id = 0};
   PlanarMotion motion;
   motion.yaw = test.angle;
   motion.velocity = test.speed * Vector2(std::cos(test.angle), std::sin(test.angle));
   const Vector2 corner =
       rotated({test.vehicle.massCentreToFront, 0.5 * test.vehicle.width}, test.angle);
   motion.position = {0.0, -corner.y() - 1e-4};
+  const Surface surface{.settings = &settings};
   CollisionStep collision;
   for (int i = 0; i < 500; ++i) {
-    motion = collision.resolve(test.vehicle, motion, std::span(&wall, 1), step).after;
+    motion = collision.resolve(test.vehicle, motion, {{&wall, 1}, {&surface, 1}}, step).after;
   }
   return motion.velocity;
 }

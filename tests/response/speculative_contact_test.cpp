@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace bumper::tests {
 namespace {
 
 const ResponseSettings usual;
+const std::array usualSurface{Surface{.settings = &usual}};
 
 constexpr VehicleParameters car{.mass = 1500.0,
                                 .yawInertia = 2600.0,
@@ -27,16 +29,12 @@ constexpr VehicleParameters car{.mass = 1500.0,
 struct Case {
   VehicleParameters vehicle;
   PlanarMotion motion;
-  std::vector<WallSegment> walls;
+  std::vector<Segment> walls;
   double step = 0.0;
 };
 
-WallSegment wallFrom(const Vector2& start, const Vector2& end, int id) {
-  return {.start = start,
-          .end = end,
-          .normal = turnedLeft((end - start).normalized()),
-          .id = id,
-          .settings = &usual};
+Segment wallFrom(const Vector2& start, const Vector2& end, int id) {
+  return {.start = start, .end = end, .normal = turnedLeft((end - start).normalized()), .id = id};
 }
 
 // A vehicle at rest or fast, with walls around it, and none in it.
@@ -51,7 +49,7 @@ Case randomCase(Random& random) {
   for (int i = 0; static_cast<int>(result.walls.size()) < count && i < 40; ++i) {
     const Vector2 middle = rotated({random.uniform(0.5, 4.0), 0.0}, random.uniform(-3.2, 3.2));
     const Vector2 half = rotated({random.uniform(0.05, 6.0), 0.0}, random.uniform(-1.6, 1.6));
-    const WallSegment wall = wallFrom(middle - half, middle + half, i);
+    const Segment wall = wallFrom(middle - half, middle + half, i);
     if (findTouch(outline, {}, wall)) continue;
     result.walls.push_back(wall);
   }
@@ -77,7 +75,8 @@ TEST(SpeculativeContact, IsWithoutEffectWhereNothingPushes) {
   int impacts = 0;
   for (int i = 0; i < 20'000; ++i) {
     const Case each = randomCase(random);
-    const StepOutcome outcome = collision.resolve(each.vehicle, each.motion, each.walls, each.step);
+    const StepOutcome outcome =
+        collision.resolve(each.vehicle, each.motion, {each.walls, usualSurface}, each.step);
     impacts += outcome.impacts.empty() ? 0 : 1;
     const PlanarMotion after = outcome.after;
     const PlanarMotion motion = carrying(each.motion, after, each.step);
@@ -101,13 +100,14 @@ TEST(SpeculativeContact, HoldsWhateverPushes) {
     Case each = randomCase(random);
     each.walls.resize(std::min<std::size_t>(each.walls.size(), 1));
     if (each.walls.empty()) continue;
-    WallSegment& wall = each.walls.front();
+    Segment& wall = each.walls.front();
     const Vector2 along = (wall.end - wall.start).normalized();
     wall.start -= 100.0 * along;  // nothing comes round an end
     wall.end += 100.0 * along;
     const Outline outline(each.vehicle);
     if (findTouch(outline, {}, wall)) continue;
-    const StepOutcome outcome = collision.resolve(each.vehicle, each.motion, each.walls, each.step);
+    const StepOutcome outcome =
+        collision.resolve(each.vehicle, each.motion, {each.walls, usualSurface}, each.step);
     const PlanarMotion after = outcome.after;
     const auto contacts = collision.speculativeContacts(each.motion, after, 5.0, each.step);
     PlanarMotion motion = carrying(each.motion, after, each.step);
@@ -140,7 +140,7 @@ TEST(SpeculativeContact, LeavesNoPartOfASideOpen) {
     for (const double radius : {25.0, 60.0}) {
       // A convex wall to the left of the vehicle, 5 cm off it.
       const Vector2 centre(0.0, 0.95 + radius);
-      std::vector<WallSegment> walls;
+      std::vector<Segment> walls;
       const double angle = length / radius;
       const int half = static_cast<int>(4.0 / length);
       const auto at = [&](int k) -> Vector2 {
@@ -149,7 +149,7 @@ TEST(SpeculativeContact, LeavesNoPartOfASideOpen) {
       for (int k = -half; k < half; ++k) walls.push_back(wallFrom(at(k), at(k + 1), k + half));
       CollisionStep collision;
       const PlanarMotion motion;
-      const PlanarMotion after = collision.resolve(car, motion, walls, 0.01).after;
+      const PlanarMotion after = collision.resolve(car, motion, {walls, usualSurface}, 0.01).after;
       double front = -10.0;
       double rear = 10.0;
       for (const SpeculativeContact& contact :
@@ -177,10 +177,10 @@ TEST(SpeculativeContact, NotWhereAVehicleMayGoThrough) {
   CollisionStep collision;
   for (const ResponseSettings* settings :
        std::vector<const ResponseSettings*>{&usual, &slow, &breaking, &paper}) {
-    WallSegment wall = wallFrom({2.3, 5.0}, {2.3, -5.0}, 0);
-    wall.settings = settings;
+    const Segment wall = wallFrom({2.3, 5.0}, {2.3, -5.0}, 0);
+    const Surface surface{.settings = settings};
     const PlanarMotion motion;
-    const StepOutcome outcome = collision.resolve(car, motion, {&wall, 1}, 0.01);
+    const StepOutcome outcome = collision.resolve(car, motion, {{&wall, 1}, {&surface, 1}}, 0.01);
     const PlanarMotion after = outcome.after;
     const std::size_t count = collision.speculativeContacts(motion, after, 0.5, 0.01).size();
     EXPECT_EQ(count, settings == &usual || settings == &slow ? 2U : 0U);

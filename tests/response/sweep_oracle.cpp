@@ -70,7 +70,7 @@ Real soonestDown(Real height, Real rate, Real bend) {
 
 /// How long the rectangle stays beyond the wall along a direction of the plane, at least: no corner
 /// is accelerated more than on the outermost circle.
-Real staysBeyond(const Outline& outline, const Flight& flight, const WallSegment& wall, Real time,
+Real staysBeyond(const Outline& outline, const Flight& flight, const Segment& wall, Real time,
                  const Plane& away) {
   const Plane centre = flight.positionAt(time);
   const Real bend = flight.yawRate * flight.yawRate * farthest(outline);
@@ -87,7 +87,7 @@ Real staysBeyond(const Outline& outline, const Flight& flight, const WallSegment
 
 /// How long the wall stays beside one and the same side of the rectangle, at least, until `until`:
 /// in the rectangle's frame its points are accelerated by Coriolis and the turn.
-Real staysBeside(const Outline& outline, const Flight& flight, const WallSegment& wall, Real time,
+Real staysBeside(const Outline& outline, const Flight& flight, const Segment& wall, Real time,
                  Real until) {
   const Box box(outline);
   const Real yaw = flight.yawAt(time), speed = flight.velocity.norm();
@@ -111,7 +111,7 @@ Real staysBeside(const Outline& outline, const Flight& flight, const WallSegment
 }  // namespace
 
 Separation separation(const Outline& outline, const Plane& position, Real yaw,
-                      const WallSegment& wall) {
+                      const Segment& wall) {
   const Box box(outline);
   const Plane a = turnedBy(wall.start.cast<Real>() - position, -yaw);
   const Plane b = turnedBy(wall.end.cast<Real>() - position, -yaw);
@@ -176,12 +176,12 @@ Real Flight::fastest(const Outline& outline) const {
   return velocity.norm() + std::abs(yawRate) * farthest(outline);
 }
 
-Separation separationAt(const Outline& outline, const Flight& flight, const WallSegment& wall,
+Separation separationAt(const Outline& outline, const Flight& flight, const Segment& wall,
                         Real time) {
   return separation(outline, flight.positionAt(time), flight.yawAt(time), wall);
 }
 
-FirstTouch firstTouch(const Outline& outline, const PlanarMotion& motion, const WallSegment& wall,
+FirstTouch firstTouch(const Outline& outline, const PlanarMotion& motion, const Segment& wall,
                       Real from, Real until, Start start) {
   const Flight flight(motion);
   const Real fastest = flight.fastest(outline);
@@ -227,8 +227,8 @@ FirstTouch firstTouch(const Outline& outline, const PlanarMotion& motion, const 
   return result;
 }
 
-Real deepestIn(const Outline& outline, const PlanarMotion& motion, const WallSegment& wall,
-               Real from, Real until) {
+Real deepestIn(const Outline& outline, const PlanarMotion& motion, const Segment& wall, Real from,
+               Real until) {
   constexpr int looks = 500;
   const Flight flight(motion);
   Real deepest = -std::numeric_limits<Real>::infinity();

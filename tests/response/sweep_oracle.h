@@ -26,8 +26,7 @@ struct Separation {
   /// Unit, from the nearest point of the wall to that. Only when apart.
   Plane away = Plane::Zero();
 };
-Separation separation(const Outline& outline, const Plane& position, Real yaw,
-                      const WallSegment& wall);
+Separation separation(const Outline& outline, const Plane& position, Real yaw, const Segment& wall);
 
 /// Free flight.
 struct Flight {
@@ -48,7 +47,7 @@ struct Flight {
   Real yawRate;
 };
 
-Separation separationAt(const Outline& outline, const Flight& flight, const WallSegment& wall,
+Separation separationAt(const Outline& outline, const Flight& flight, const Segment& wall,
                         Real time);
 
 struct FirstTouch {
@@ -68,11 +67,11 @@ enum class Start {
 /// An outline is clear of a wall at this distance, m.
 inline constexpr Real clear = 1e-8L;
 
-FirstTouch firstTouch(const Outline& outline, const PlanarMotion& motion, const WallSegment& wall,
+FirstTouch firstTouch(const Outline& outline, const PlanarMotion& motion, const Segment& wall,
                       Real from, Real until, Start start);
 
 /// The deepest overlap in an interval, m, as far as sampling sees it; negative if none.
-Real deepestIn(const Outline& outline, const PlanarMotion& motion, const WallSegment& wall,
-               Real from, Real until);
+Real deepestIn(const Outline& outline, const PlanarMotion& motion, const Segment& wall, Real from,
+               Real until);
 
 }  // namespace bumper::tests

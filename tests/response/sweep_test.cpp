@@ -36,7 +36,7 @@ Vector2 heading(double angle) { return {std::cos(angle), std::sin(angle)}; }
 struct Scene {
   VehicleParameters vehicle;
   PlanarMotion motion = {};
-  WallSegment wall = {};
+  Segment wall = {};
   double step = 0.0;
 
   [[nodiscard]] Outline outline() const { return Outline(vehicle); }
@@ -71,9 +71,8 @@ enum class Shape { face, end, small, post };
 
 /// A wall that meets the outline when that is at `at`, as it were: by a corner at a long face, by
 /// its end, by any point of a short one, by the round of a post.
-WallSegment wallMeeting(Random& random, Shape shape, const Outline& outline,
-                        const PlanarMotion& at) {
-  WallSegment wall;
+Segment wallMeeting(Random& random, Shape shape, const Outline& outline, const PlanarMotion& at) {
+  Segment wall;
   const EdgePoint edge = randomEdgePoint(random, outline, at);
   if (shape == Shape::post) {
     wall.radius = std::pow(10.0, random.uniform(-2.0, 0.3));
@@ -347,16 +346,16 @@ struct Placed {
   [[nodiscard]] Vector2 place(const Vector2& local) const {
     return motion.position + rotated(local, motion.yaw);
   }
-  [[nodiscard]] WallSegment wall(const Vector2& start, const Vector2& end) const {
-    WallSegment wall;
+  [[nodiscard]] Segment wall(const Vector2& start, const Vector2& end) const {
+    Segment wall;
     wall.start = place(start);
     wall.end = place(end);
     const Vector2 along = wall.end - wall.start;
     if (along != Vector2::Zero()) wall.normal = turnedLeft(along.normalized());
     return wall;
   }
-  [[nodiscard]] WallSegment post(const Vector2& centre, double radius) const {
-    WallSegment wall = this->wall(centre, centre);
+  [[nodiscard]] Segment post(const Vector2& centre, double radius) const {
+    Segment wall = this->wall(centre, centre);
     wall.radius = radius;
     return wall;
   }
@@ -365,10 +364,10 @@ struct Placed {
     motion.velocity = rotated(velocity, motion.yaw);
     motion.yawRate = yawRate;
   }
-  [[nodiscard]] std::optional<Overlap> touch(const WallSegment& wall) const {
+  [[nodiscard]] std::optional<Overlap> touch(const Segment& wall) const {
     return findTouch(outline, motion.placement(), wall);
   }
-  [[nodiscard]] double time(const WallSegment& wall, double until) const {
+  [[nodiscard]] double time(const Segment& wall, double until) const {
     const std::optional<Overlap> overlap = touch(wall);
     return bumper::Sweep(outline, motion)
         .timeOfTouch(wall, overlap ? &*overlap : nullptr, 0.0, until);
@@ -377,8 +376,8 @@ struct Placed {
 
 /// A wall before the front, behind the rear, or beside either side of the outline, parallel to it
 /// and `distance` away; and the direction towards it, in the vehicle's frame.
-std::pair<WallSegment, Vector2> wallAlong(const Placed& p, int side, double distance, double from,
-                                          double to) {
+std::pair<Segment, Vector2> wallAlong(const Placed& p, int side, double distance, double from,
+                                      double to) {
   const double reach[] = {p.outline.front, p.outline.halfWidth, p.outline.rear,
                           p.outline.halfWidth};
   const Vector2 out = rotated({1.0, 0.0}, side * 0.5 * pi);
@@ -459,7 +458,7 @@ TEST(Degenerate, APureTurnMeetsTheWallByAnArcCosine) {
     const Vector2 corner(p.outline.front, p.outline.halfWidth);
     const double radius = corner.norm(), start = std::atan2(corner.y(), corner.x());
     const double distance = random.uniform(corner.x() + 1e-6, radius - 1e-4);
-    const WallSegment wall = p.wall({distance, -50.0}, {distance, 50.0});
+    const Segment wall = p.wall({distance, -50.0}, {distance, 50.0});
     // Turning right: this corner comes round to the wall.
     const double rate = random.uniform(0.1, 20.0);
     p.move({0.0, 0.0}, -rate);

@@ -43,11 +43,13 @@ double energyOf(const VehicleParameters& vehicle, const PlanarMotion& motion) {
 struct Scene {
   VehicleParameters vehicle;
   PlanarMotion motion = {};
-  std::vector<WallSegment> walls = {};
+  Surface surface = {};
+  std::vector<Segment> walls = {};
   double step = 0.0;
 
+  [[nodiscard]] CollisionStep::Walls all() const { return {walls, {&surface, 1}}; }
   [[nodiscard]] Outline outline() const { return Outline(vehicle); }
-  [[nodiscard]] Real gapAt(const PlanarMotion& flight, const WallSegment& wall, double time) const {
+  [[nodiscard]] Real gapAt(const PlanarMotion& flight, const Segment& wall, double time) const {
     return separationAt(outline(), Flight(flight), wall, time).gap;
   }
 };
@@ -59,7 +61,7 @@ std::ostream& operator<<(std::ostream& out, const Scene& s) {
       << s.vehicle.width << "\nposition (" << s.motion.position.transpose() << ") yaw "
       << s.motion.yaw << " velocity (" << s.motion.velocity.transpose() << ") yaw rate "
       << s.motion.yawRate << " step " << s.step << '\n';
-  for (const WallSegment& wall : s.walls) {
+  for (const Segment& wall : s.walls) {
     out << "wall " << wall.id << " (" << wall.start.transpose() << ") to (" << wall.end.transpose()
         << ") normal (" << wall.normal.transpose() << ") radius " << wall.radius
         << (wall.solid ? " solid\n" : "\n");
@@ -87,7 +89,7 @@ PlanarMotion randomMotion(Random& random) {
 }
 
 /// A wall or a post in the vehicle's way: anything from a millimetre to 20 m before it.
-WallSegment wallInTheWay(Random& random, const Scene& s, int id) {
+Segment wallInTheWay(Random& random, const Scene& s, int id) {
   const PlanarMotion at = advanced(s.motion, random.uniform(0.0, 1.0) * s.step);
   const Vector2 ahead = s.motion.velocity.normalized();
   double reach = 0.0;
@@ -96,7 +98,7 @@ WallSegment wallInTheWay(Random& random, const Scene& s, int id) {
   }
   const Vector2 middle =
       at.position + reach * ahead + random.uniform(-1.0, 1.0) * turnedLeft(ahead);
-  WallSegment wall{.id = id, .group = id};
+  Segment wall{.id = id};
   if (random.chance(0.2)) {
     wall.radius = random.uniform(0.05, 0.5);
     wall.start = wall.end = middle + wall.radius * ahead;
@@ -114,15 +116,15 @@ WallSegment wallInTheWay(Random& random, const Scene& s, int id) {
 /// A vehicle that is clear of all walls, some of which stand in its way.
 Scene randomScene(Random& random, int mostWalls, const ResponseSettings& settings) {
   while (true) {
-    Scene s{.vehicle = randomVehicle(random), .motion = randomMotion(random)};
+    Scene s{.vehicle = randomVehicle(random),
+            .motion = randomMotion(random),
+            .surface = {.settings = &settings}};
     s.step = std::pow(10.0, random.uniform(-3.3, std::log10(0.05)));
     for (int k = 1 + random.below(mostWalls); k > 0; --k) {
       s.walls.push_back(wallInTheWay(random, s, k));
-      s.walls.back().settings = &settings;
     }
-    if (std::ranges::all_of(s.walls, [&](const WallSegment& wall) {
-          return s.gapAt(s.motion, wall, 0.0) > 1e-3L;
-        })) {
+    if (std::ranges::all_of(
+            s.walls, [&](const Segment& wall) { return s.gapAt(s.motion, wall, 0.0) > 1e-3L; })) {
       return s;
     }
   }
@@ -144,7 +146,7 @@ Replay replay(const Scene& s, const StepOutcome& outcome) {
   double time = 0.0;
   const auto fly = [&](double until) {
     if (until < time) result.inOrder = false;
-    for (const WallSegment& wall : s.walls) {
+    for (const Segment& wall : s.walls) {
       if (wall.solid) continue;  // lets through what comes from behind
       constexpr int looks = 12;
       for (int k = 0; k <= looks; ++k) {
@@ -158,7 +160,7 @@ Replay replay(const Scene& s, const StepOutcome& outcome) {
   };
   for (const StepImpact& impact : outcome.impacts) {
     fly(impact.time);
-    const auto wall = std::ranges::find(s.walls, impact.impact.wall, &WallSegment::id);
+    const auto wall = std::ranges::find(s.walls, impact.impact.wall, &Segment::id);
     result.farthestHit =
         std::max(result.farthestHit, static_cast<double>(s.gapAt(now, *wall, 0.0)));
     const double before = energyOf(s.vehicle, now);
@@ -180,13 +182,13 @@ TEST(SweptStep, WithoutATouchIsFreeFlight) {
   while (free < 20'000) {
     Scene s = randomScene(random, 4, settings);
     s.motion.velocity = -s.motion.velocity;  // mostly away from them
-    const bool touches = std::ranges::any_of(s.walls, [&](const WallSegment& wall) {
+    const bool touches = std::ranges::any_of(s.walls, [&](const Segment& wall) {
       return firstTouch(s.outline(), s.motion, wall, 0.0L, s.step, Start::apart).kind !=
              FirstTouch::Kind::none;
     });
     if (touches) continue;
     ++free;
-    const StepOutcome outcome = step.resolve(s.vehicle, s.motion, s.walls, s.step);
+    const StepOutcome outcome = step.resolve(s.vehicle, s.motion, s.all(), s.step);
     const PlanarMotion expected = advanced(s.motion, s.step);
     ASSERT_TRUE(outcome.impacts.empty()) << s;
     ASSERT_TRUE(outcome.settled);
@@ -210,7 +212,7 @@ TEST(SweptStep, ImpactsAndFreeFlightBetweenThemAreTheStep) {
   for (int i = 0; i < 20'000; ++i) {
     const ResponseSettings settings = randomSettings(random);
     const Scene s = randomScene(random, 4, settings);
-    const StepOutcome outcome = step.resolve(s.vehicle, s.motion, s.walls, s.step);
+    const StepOutcome outcome = step.resolve(s.vehicle, s.motion, s.all(), s.step);
     ASSERT_TRUE(isFinite(outcome.after)) << s;
     const Replay expected = replay(s, outcome);
     ASSERT_TRUE(expected.inOrder) << i << s;
@@ -247,6 +249,7 @@ TEST(SweptStep, ImpactsAndFreeFlightBetweenThemAreTheStep) {
 TEST(SweptStep, AWallOfPiecesThatAreNotQuiteInLineIsHit) {
   Random random(31);
   const ResponseSettings settings;
+  const Surface surface{.settings = &settings};
   CollisionStep collision;
   int impacts = 0;
   for (int i = 0; i < 3'000; ++i) {
@@ -268,7 +271,7 @@ TEST(SweptStep, AWallOfPiecesThatAreNotQuiteInLineIsHit) {
     motion.velocity = {speed, 0.0};
     motion.yawRate = random.chance(0.5) ? 0.0 : random.uniform(-1e-3, 1e-3);
 
-    std::vector<WallSegment> walls;
+    std::vector<Segment> walls;
     for (double y = -6.0; y < 6.0;) {
       const double length = random.uniform(0.05, 1.5);
       const Vector2 start(random.uniform(0.0, off), y);
@@ -276,11 +279,10 @@ TEST(SweptStep, AWallOfPiecesThatAreNotQuiteInLineIsHit) {
       walls.push_back({.start = start,
                        .end = end,
                        .normal = turnedLeft((end - start).normalized()),
-                       .id = static_cast<int>(walls.size()),
-                       .settings = &settings});
+                       .id = static_cast<int>(walls.size())});
       y += length;
     }
-    const StepOutcome outcome = collision.resolve(vehicle, motion, walls, step);
+    const StepOutcome outcome = collision.resolve(vehicle, motion, {walls, {&surface, 1}}, step);
     impacts += outcome.impacts.empty() ? 0 : 1;
     double deepest = -1.0;
     for (const Vector2& corner : outline.corners()) {
@@ -300,14 +302,14 @@ TEST(SweptStep, TwoHalvesAreTheWhole) {
   for (int i = 0; i < 30'000; ++i) {
     const ResponseSettings settings = randomSettings(random);
     const Scene s = randomScene(random, 1, settings);
-    const StepOutcome outcome = step.resolve(s.vehicle, s.motion, s.walls, s.step);
+    const StepOutcome outcome = step.resolve(s.vehicle, s.motion, s.all(), s.step);
     if (outcome.impacts.size() != 1 || !outcome.settled) continue;
     const PlanarMotion whole = outcome.after;
     const double first = random.uniform(0.05, 0.95) * s.step;
-    const StepOutcome early = step.resolve(s.vehicle, s.motion, s.walls, first);
+    const StepOutcome early = step.resolve(s.vehicle, s.motion, s.all(), first);
     std::size_t impacts = early.impacts.size();
     const PlanarMotion between = early.after;
-    const StepOutcome late = step.resolve(s.vehicle, between, s.walls, s.step - first);
+    const StepOutcome late = step.resolve(s.vehicle, between, s.all(), s.step - first);
     impacts += late.impacts.size();
     if (impacts > 1) {
       ++slid;
@@ -326,7 +328,9 @@ TEST(SweptStep, TwoHalvesAreTheWhole) {
 
 /// A long wall, and a vehicle up to half a metre in it.
 Scene sceneInWall(Random& random, const ResponseSettings& settings, double depth) {
-  Scene s{.vehicle = randomVehicle(random), .motion = randomMotion(random)};
+  Scene s{.vehicle = randomVehicle(random),
+          .motion = randomMotion(random),
+          .surface = {.settings = &settings}};
   s.step = random.uniform(0.001, 0.02);
   const Vector2 normal = heading(random.uniform(-pi, pi));
   double lowest = 0.0;
@@ -337,8 +341,7 @@ Scene sceneInWall(Random& random, const ResponseSettings& settings, double depth
   s.walls.push_back({.start = middle - 50.0 * turnedLeft(normal),
                      .end = middle + 50.0 * turnedLeft(normal),
                      .normal = normal,
-                     .id = 1,
-                     .settings = &settings});
+                     .id = 1});
   return s;
 }
 
@@ -360,9 +363,10 @@ TEST(SweptStep, WhatStandsInAWallIsEasedOut) {
     PlanarMotion now = s.motion;
     double last = depth;
     for (int k = 0; k < 200; ++k) {
-      const StepOutcome outcome = step.resolve(s.vehicle, now, s.walls, s.step);
+      const StepOutcome outcome = step.resolve(s.vehicle, now, s.all(), s.step);
       ASSERT_TRUE(outcome.impacts.empty()) << i << s;
-      ASSERT_LE(outcome.shift.velocity.norm(), CollisionStep::maxEaseOut * (1.0 + 1e-12)) << i << s;
+      ASSERT_LE(outcome.shift.velocity.norm(), CollisionStep::maxRecoverySpeed * (1.0 + 1e-12))
+          << i << s;
       ASSERT_GE(outcome.shift.velocity.dot(normal), 0.0) << i << s;
       ASSERT_EQ(outcome.after.velocity, s.motion.velocity) << i << s;
       ASSERT_EQ(outcome.after.yawRate, 0.0) << i << s;
@@ -375,7 +379,7 @@ TEST(SweptStep, WhatStandsInAWallIsEasedOut) {
       last = deep;
     }
     // At first at full speed, then more and more gently.
-    const double sooner = 150.0 * s.step * CollisionStep::maxEaseOut;
+    const double sooner = 150.0 * s.step * CollisionStep::maxRecoverySpeed;
     ASSERT_LE(last, std::max(1e-3, depth - sooner)) << i << s;
   }
 }
@@ -386,8 +390,9 @@ TEST(SweptStep, WhatIsDrivenFurtherIntoAWallIsStoppedAndEasedOut) {
   for (int i = 0; i < 20'000; ++i) {
     const ResponseSettings settings = randomSettings(random);
     const Scene s = sceneInWall(random, settings, random.uniform(0.001, 0.5));
-    const StepOutcome outcome = step.resolve(s.vehicle, s.motion, s.walls, s.step);
-    ASSERT_LE(outcome.shift.velocity.norm(), CollisionStep::maxEaseOut * (1.0 + 1e-12)) << i << s;
+    const StepOutcome outcome = step.resolve(s.vehicle, s.motion, s.all(), s.step);
+    ASSERT_LE(outcome.shift.velocity.norm(), CollisionStep::maxRecoverySpeed * (1.0 + 1e-12))
+        << i << s;
     PlanarMotion expected =
         afterImpulse(s.motion, outcome.impulse, s.vehicle.mass, s.vehicle.yawInertia);
     ASSERT_NEAR((outcome.after.velocity - expected.velocity).norm(), 0.0, rounding) << i << s;
@@ -407,7 +412,7 @@ TEST(SweptStep, AfterTooManyImpactsTheVehicleIsHeld) {
   settings.penetrationTime = 0.0;
   int held = 0;
   for (int i = 0; i < 20'000; ++i) {
-    Scene s{.vehicle = randomVehicle(random)};
+    Scene s{.vehicle = randomVehicle(random), .surface = {.settings = &settings}};
     s.step = 0.05;
     s.motion.velocity = {random.uniform(20.0, 120.0), random.uniform(-20.0, 20.0)};
     s.motion.yawRate = random.uniform(-10.0, 10.0);
@@ -419,10 +424,9 @@ TEST(SweptStep, AfterTooManyImpactsTheVehicleIsHeld) {
       s.walls.push_back({.start = foot - 10.0 * along,
                          .end = foot + 10.0 * along,
                          .normal = -side * turnedLeft(along),
-                         .id = static_cast<int>(side),
-                         .settings = &settings});
+                         .id = static_cast<int>(side)});
     }
-    const StepOutcome outcome = step.resolve(s.vehicle, s.motion, s.walls, s.step);
+    const StepOutcome outcome = step.resolve(s.vehicle, s.motion, s.all(), s.step);
     ASSERT_LE(outcome.impacts.size(), static_cast<std::size_t>(CollisionStep::maxImpacts)) << s;
     ASSERT_LE(energyOf(s.vehicle, outcome.after), energyOf(s.vehicle, s.motion) * (1.0 + 1e-12))
         << i << s;

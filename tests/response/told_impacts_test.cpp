@@ -75,7 +75,8 @@ class Surroundings {
 
   VehicleParameters vehicle;
   PlanarMotion motion;
-  std::vector<WallSegment> walls;
+  std::vector<Segment> walls;
+  Surface surface{.settings = &settings_};
   double h = 0.0;
   /// Eq. 17 as printed can.
   [[nodiscard]] bool mayGainEnergy() const { return settings_.method == Method::paper; }
@@ -96,12 +97,11 @@ class Surroundings {
     walls.push_back({.start = foot - 20.0 * turnedLeft(normal),
                      .end = foot + 20.0 * turnedLeft(normal),
                      .normal = normal,
-                     .id = static_cast<int>(walls.size()),
-                     .settings = &settings_});
+                     .id = static_cast<int>(walls.size())});
   }
 
   // To a post, or to a wall that has an end nearby.
-  void shorten(WallSegment& wall) {
+  void shorten(Segment& wall) {
     const Vector2 middle = 0.5 * (wall.start + wall.end);
     if (random_.chance(0.4)) {
       wall.radius = random_.uniform(0.05, 0.5);
@@ -206,7 +206,7 @@ TEST(ToldImpacts, FitTheirArmsAndTheStep) {
   int hit = 0, together = 0;
   for (int i = 0; i < 20'000; ++i) {
     const Surroundings s(random);
-    const StepOutcome outcome = step.resolve(s.vehicle, s.motion, s.walls, s.h);
+    const StepOutcome outcome = step.resolve(s.vehicle, s.motion, {s.walls, {&s.surface, 1}}, s.h);
     expectFits(s, outcome, "case " + std::to_string(i));
     if (HasFatalFailure()) return;
     hit += outcome.impacts.empty() ? 0 : 1;

@@ -52,7 +52,7 @@ TEST(Why, IndependentImpulsesInACornerCreateEnergy) {
   settings.restitution = AngleCurve::constant(0.3);
   // Two walls that the nose meets symmetrically, so steep that each stops it nearly alone.
   const double slope = 75.0 * degree;
-  WallSegment walls[2];
+  Segment walls[2];
   for (int side = 0; side < 2; ++side) {
     const double sign = side == 0 ? 1.0 : -1.0;
     const Vector2 normal(-std::sin(slope), -sign * std::cos(slope));
@@ -60,28 +60,28 @@ TEST(Why, IndependentImpulsesInACornerCreateEnergy) {
     walls[side] = {.start = touched - 5.0 * turnedLeft(normal),
                    .end = touched + 5.0 * turnedLeft(normal),
                    .normal = normal,
-                   .id = side,
-                   .settings = &settings};
+                   .id = side};
   }
   const PlanarMotion motion{.velocity = {5.0, 0.0}};
   const Outline outline(car);
 
   PlanarMotion independent = motion;
-  for (const WallSegment& wall : walls) {
+  for (const Segment& wall : walls) {
     const std::optional<Overlap> overlap = findOverlap(outline, motion.placement(), wall);
     ASSERT_TRUE(overlap.has_value());
     const ContactPoint contact =
         contactPoint(outline, motion.placement(), wall, *overlap, overlap->depth);
     const Impact impact{
         .wall = wall.id, .point = contact.point, .normal = overlap->normal, .arm = contact.arm};
-    const ImpactResponse response = respond(impact, motion, car.mass, car.yawInertia, settings);
+    const ImpactResponse response = respond(impact, freeBody(car, motion), settings);
     independent = afterImpulse(independent, response.impulse, car.mass, car.yawInertia);
   }
   const double before = yawPlaneEnergy(motion, car.mass, car.yawInertia);
   EXPECT_GT(yawPlaneEnergy(independent, car.mass, car.yawInertia), before);
 
   CollisionStep step;
-  const StepOutcome outcome = step.resolve(car, motion, walls, 0.0);
+  const Surface surface{.settings = &settings};
+  const StepOutcome outcome = step.resolve(car, motion, {walls, {&surface, 1}}, 0.0);
   EXPECT_TRUE(outcome.settled);
   EXPECT_LT(yawPlaneEnergy(outcome.after, car.mass, car.yawInertia), 0.5 * before);
 }

@@ -54,14 +54,13 @@ struct Faults {
   }
 };
 
-std::vector<WallSegment> segmentsOf(const Plan& plan, const ResponseSettings& settings) {
-  std::vector<WallSegment> walls;
+std::vector<Segment> segmentsOf(const Plan& plan) {
+  std::vector<Segment> walls;
   for (const Line& line : plan) {
     walls.push_back({.start = line.start,
                      .end = line.end,
                      .normal = turnedLeft((line.end - line.start).normalized()),
-                     .id = static_cast<int>(walls.size()),
-                     .settings = &settings});
+                     .id = static_cast<int>(walls.size())});
   }
   return walls;
 }
@@ -148,14 +147,15 @@ TEST(MillionImpacts, OfACollisionStep) {
     const VehicleParameters vehicle = randomVehicle(random);
     const Plan plan = randomPlan(random, static_cast<Layout>(i % layouts));
     const ResponseSettings settings = randomSettings(random);
-    const std::vector<WallSegment> walls = segmentsOf(plan, settings);
+    const Surface surface{.settings = &settings};
+    const std::vector<Segment> walls = segmentsOf(plan);
     const double mostStep = randomStep(random);
     std::optional<PlanarMotion> motion = randomApproach(random, vehicle, plan, mostStep);
     if (!motion) continue;
     double mostInside = 0.0;
     for (int k = 0; k < 12; ++k) {
       const double h = random.chance(0.5) ? mostStep : randomStep(random);
-      const StepOutcome outcome = collision.resolve(vehicle, *motion, walls, h);
+      const StepOutcome outcome = collision.resolve(vehicle, *motion, {walls, {&surface, 1}}, h);
       check(vehicle, *motion, h, plan, outcome, mostInside, faults);
       impacts += static_cast<int>(outcome.impacts.size());
       ++steps;

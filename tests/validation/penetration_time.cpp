@@ -48,13 +48,11 @@ double yawRateAfter(double heading, double penetrationTime) {
   }
   const Vector2 foot = (deepest + 1e-7) * normal;
   const Vector2 along = turnedLeft(normal);
-  const WallSegment wall{.start = foot - 50.0 * along,
-                         .end = foot + 50.0 * along,
-                         .normal = normal,
-                         .id = 0,
-                         .settings = &settings};
+  const Segment wall{
+      .start = foot - 50.0 * along, .end = foot + 50.0 * along, .normal = normal, .id = 0};
   CollisionStep step;
-  return step.resolve(car, motion, std::span(&wall, 1), 0.0).after.yawRate / degree;
+  const Surface surface{.settings = &settings};
+  return step.resolve(car, motion, {{&wall, 1}, {&surface, 1}}, 0.0).after.yawRate / degree;
 }
 
 double steepest(double penetrationTime) {

@@ -77,12 +77,13 @@ void writeHeadings(const std::filesystem::path& folder) {
     for (const double time : penetrationTimes) {
       bumper::ResponseSettings settings;
       settings.penetrationTime = time;
-      bumper::WallSegment wall;
+      bumper::Segment wall;
       wall.start = touched - 50.0 * bumper::turnedLeft(normal);
       wall.end = touched + 50.0 * bumper::turnedLeft(normal);
       wall.normal = normal;
-      wall.settings = &settings;
-      const bumper::StepOutcome outcome = step.resolve(car, motion, {&wall, 1}, 0.0);
+      const bumper::Surface surface{.settings = &settings};
+      const bumper::StepOutcome outcome =
+          step.resolve(car, motion, {{&wall, 1}, {&surface, 1}}, 0.0);
       file << ',' << outcome.after.yawRate / degree << ',' << outcome.after.velocity.dot(normal)
            << ',' << bumper::yawPlaneEnergy(outcome.after, car.mass, car.yawInertia) / energyBefore
            << ',' << outcome.impacts.size();
@@ -115,7 +116,7 @@ void writeEnergyLaw(const std::filesystem::path& folder) {
       // A flush side is met through the mass centre.
       impact.arm = k < corners.size() ? corners[k] : Vector2(-0.5 * car.width * impact.normal);
       const bumper::ImpactResponse response =
-          bumper::respond(impact, motion, car.mass, car.yawInertia, settings);
+          bumper::respond(impact, bumper::freeBody(car, motion), settings);
       if (k == 0) file << ',' << response.energyAsked;
       file << ',' << response.restitution << ',' << response.energyRatio << ','
            << bumper::toString(response.outcome);

@@ -36,7 +36,7 @@ std::size_t GridSweep::query() {
   const double side = 0.5 * car_.width + reach;
   segments_.clear();
   for (const PlanSegment& wall : walls) {
-    WallSegment segment;
+    Segment segment;
     segment.start = place.toVehicle(wall.start);
     segment.end = place.toVehicle(wall.end);
     if (std::min(segment.start.x(), segment.end.x()) > front ||
@@ -47,11 +47,11 @@ std::size_t GridSweep::query() {
     }
     segment.normal = turnedLeft(segment.end - segment.start).normalized();
     segment.id = static_cast<int>(segments_.size());
-    segment.settings = &settings_;
     segments_.push_back(segment);
   }
   if (segments_.empty()) return 0;
-  const StepOutcome outcome = collision_.resolve(car_, motion, segments_, stepSize);
+  const StepOutcome outcome =
+      collision_.resolve(car_, motion, {segments_, {&surface_, 1}}, stepSize);
   count_ = outcome.impacts.size() + (outcome.shift.velocity.isZero(0.0) ? 0 : 1);
   return count_;
 }

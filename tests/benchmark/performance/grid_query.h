@@ -45,9 +45,10 @@ class GridSweep {
  private:
   VehicleParameters car_ = queryCar();
   ResponseSettings settings_;
+  Surface surface_{.settings = &settings_};
   WallGrid grid_;
   CollisionStep collision_;
-  std::vector<WallSegment> segments_;
+  std::vector<Segment> segments_;
   Pose pose_;
   std::size_t count_ = 0;
 };

@@ -175,7 +175,7 @@ double responseTime(Law law, int repetitions) {
   for (int repetition = 0; repetition < 10 * repetitions; ++repetition) {
     const Timer timer;
     for (const PlanarMotion& motion : motions) {
-      sum += respond(impact, motion, car.mass, car.yawInertia, settings).impulse.angular;
+      sum += respond(impact, freeBody(car, motion), settings).impulse.angular;
     }
     least = std::min(least, timer.elapsed());
   }

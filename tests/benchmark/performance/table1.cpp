@@ -92,8 +92,7 @@ class OsgUpdate final : public Update {
         .position = pose.place.position, .velocity = pose.velocity, .yawRate = pose.yawRate};
     if (velocityAt(motion, impact.arm).dot(impact.normal) >= 0.0) return;
     const VehicleParameters car = queryCar();
-    const PlanarImpulse impulse =
-        bumper::respond(impact, motion, car.mass, car.yawInertia, settings_).impulse;
+    const PlanarImpulse impulse = bumper::respond(impact, freeBody(car, motion), settings_).impulse;
     dBodyAddForce(body(), impulse.linear.x() / stepSize, impulse.linear.y() / stepSize, 0.0);
     dBodyAddTorque(body(), 0.0, 0.0, impulse.angular / stepSize);
   }

@@ -16,12 +16,6 @@
 
 namespace bumper {
 
-/// Where an impact's point and normal come from.
-enum class ContactSource {
-  exact_cut,    ///< ODE's trimesh collider lists the triangles, Bumper cuts the outline with them
-  ode_contacts  ///< the mean of dCollide's contacts, as any ODE program has them; for comparison
-};
-
 /// How an impulse reaches the bodies (the paper's two choices of implementation). Both lead to the
 /// same motion.
 enum class Delivery {
@@ -32,7 +26,6 @@ enum class Delivery {
 struct ResponderOptions {
   /// How walls answer, unless their barrier says otherwise.
   ResponseSettings response{};
-  ContactSource contactSource = ContactSource::exact_cut;
   Delivery delivery = Delivery::force_pulse;
   /// Whether a vehicle that joints or contacts act on gets guard contacts: contact joints of
   /// Bumper's own with the walls nearby, for one step, through which nothing that pushes can press

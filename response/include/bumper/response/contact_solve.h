@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bumper/response/planar_motion.h"
+#include "bumper/response/planar_body.h"
 
 /// One contact point between a vehicle and something else, as linear algebra. `normal` is a unit
 /// vector out of the other body into the vehicle; the tangent is z × normal. With A, B, C below an
@@ -19,6 +19,15 @@ struct ContactBody {
   Vector2 velocity = Vector2::Zero();  ///< mass centre, m/s
   double yawRate = 0.0;                ///< rad/s
 };
+
+/// A body whose contact point lies at `arm` from its mass centre, m.
+inline ContactBody contactBody(const PlanarBody& body, const Vector2& arm) {
+  return {.inverseMass = 1.0 / body.mass,
+          .inverseYawInertia = 1.0 / body.yawInertia,
+          .arm = arm,
+          .velocity = body.motion.velocity,
+          .yawRate = body.motion.yawRate};
+}
 
 /// How readily the contact point gives way to an impulse, 1/kg.
 struct ContactMobility {

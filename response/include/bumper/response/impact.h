@@ -1,19 +1,21 @@
 #pragma once
 
 #include "bumper/response/angle_curve.h"
-#include "bumper/response/contact_point.h"
+#include "bumper/response/planar_body.h"
 #include "bumper/response/response_settings.h"
 
 namespace bumper {
 
-/// One collision of a vehicle with a wall: where and which way. Vectors are in the frame of the
-/// motion that it was found for.
+/// One collision of a vehicle with a wall or another body: where and which way. Vectors are in the
+/// frame of the motion that it was found for.
 struct Impact {
-  int wall = -1;                     ///< WallSegment::id
+  int wall = -1;                     ///< Segment::id
   Vector2 point = Vector2::Zero();   ///< contact point on the wall, m
   Vector2 normal = Vector2::Zero();  ///< unit, out of the wall into the vehicle
-  Vector2 arm = Vector2::Zero();     ///< mass centre to contact point, m
-  double depth = 0.0;                ///< of the overlap when it was noticed, m
+  Vector2 arm = Vector2::Zero();     ///< the vehicle's mass centre to the contact point, m
+  /// The other body's mass centre to the contact point, m; of no meaning for a fixed wall.
+  Vector2 otherArm = Vector2::Zero();
+  double depth = 0.0;  ///< of the overlap when it was noticed, m
 };
 
 /// What the response makes of an impact.
@@ -23,16 +25,17 @@ struct ImpactResponse {
   double restitution = 0.0;    ///< asked by e(α), or as it came out of the energy law
   double friction = 0.0;       ///< asked by μ(α)
   double energyAsked = 1.0;    ///< P(α); NaN under the restitution law
-  double energyRatio = 1.0;    ///< yaw-plane energy after / before
+  double energyRatio = 1.0;    ///< yaw-plane energy of all free bodies after / before
   EnergyOutcome outcome = EnergyOutcome::not_asked;
   bool brokeThrough = false;  ///< the vehicle goes on through the wall, EnergyRoot::break_through
   ContactSolution contact;
   PlanarImpulse impulse;  ///< on the vehicle
-  PlanarMotion before;
+  PlanarMotion before;    ///< of the vehicle
   PlanarMotion after;
+  PlanarMotion otherAfter;  ///< of the other body
 };
 
-/// The direction of attack of an impact of a vehicle that moves as `motion` says.
+/// The direction of attack of an impact of a vehicle that moves as `motion` says on a fixed wall.
 AttackDirection attackDirection(const Impact& impact, const PlanarMotion& motion,
                                 AngleDefinition definition);
 
@@ -47,15 +50,20 @@ enum class Rebound {
             ///< held by many small impacts, none of which may take energy
 };
 
-/// The response to an impact of a vehicle of the given mass and yaw inertia that moves as `motion`
-/// says against a fixed wall: reads the curves at the angle of attack and asks the law.
-ImpactResponse respond(const Impact& impact, const PlanarMotion& motion, double mass,
-                       double yawInertia, const ResponseSettings& settings,
-                       Rebound rebound = Rebound::as_set);
+/// The response to an impact on a fixed wall: reads the curves at the angle of attack and asks the
+/// law.
+ImpactResponse respond(const Impact& impact, const PlanarBody& vehicle,
+                       const ResponseSettings& settings, Rebound rebound = Rebound::as_set);
 
-/// The same for an impulse that no law asked for: it is one of those that end the approach at
-/// several points at once.
-ImpactResponse plainResponse(const Impact& impact, const PlanarMotion& motion, double mass,
-                             double yawInertia, const PlanarImpulse& impulse);
+/// The same on another body, which takes the opposite impulse. The angle of attack is that of the
+/// velocity relative to it (by AngleDefinition::heading still the vehicle's), the energies of the
+/// energy law and of the result are those of both bodies, a driven one's left out.
+ImpactResponse respond(const Impact& impact, const PlanarBody& vehicle, const PlanarBody& other,
+                       const ResponseSettings& settings, Rebound rebound = Rebound::as_set);
+
+/// The response to an impact on a fixed wall by an impulse that no law asked for: it is one of
+/// those that end the approach at several points at once.
+ImpactResponse plainResponse(const Impact& impact, const PlanarBody& vehicle,
+                             const PlanarImpulse& impulse);
 
 }  // namespace bumper

@@ -47,6 +47,9 @@ struct PlanarMotion {
   [[nodiscard]] Placement placement() const { return {position, yaw}; }
 };
 
+/// Where free flight at constant velocity and yaw rate carries a body within some time, s.
+PlanarMotion advanced(PlanarMotion motion, double time);
+
 /// Velocity of the body point at `arm` from the mass centre (both in the plane's frame).
 inline Vector2 velocityAt(const PlanarMotion& motion, const Vector2& arm) {
   return motion.velocity + motion.yawRate * turnedLeft(arm);

@@ -46,6 +46,11 @@ struct ResponseSettings {
   double restSpeed = 0.1;
 };
 
+/// Whether what answers so can break, and let a vehicle through.
+inline bool breaks(const ResponseSettings& settings) {
+  return settings.law == Law::energy && settings.energyRoot == EnergyRoot::break_through;
+}
+
 /// Throws Error, naming the value, if one lies outside its range.
 void validate(const ResponseSettings& settings);
 

@@ -12,9 +12,9 @@ namespace bumper {
 /// know so that nothing pushes the vehicle through. In the frame of the motion that it was found
 /// for.
 struct SpeculativeContact {
-  int wall = -1;                               ///< WallSegment::id
-  const ResponseSettings* settings = nullptr;  ///< the wall's; not owned
-  Vector2 normal = Vector2::Zero();            ///< unit, out of the wall into the vehicle
+  int wall = -1;                     ///< Segment::id
+  int surface = 0;                   ///< Segment::surface
+  Vector2 normal = Vector2::Zero();  ///< unit, out of the wall into the vehicle
   /// Mass centre to the point of the outline, m, as the vehicle stands at the step's end.
   Vector2 arm = Vector2::Zero();
   Vector2 velocity = Vector2::Zero();  ///< of the point in this step if nothing else pushes, m/s
@@ -44,14 +44,14 @@ class SpeculativeContacts {
              double distance, double step);
   /// `touch` is what findTouch() says at the start, or null. `depth`, m, is how deep the outline
   /// may be in this wall.
-  void addWall(const WallSegment& wall, const Overlap* touch, double depth);
+  void addWall(const Segment& wall, const Overlap* touch, double depth);
   [[nodiscard]] std::span<const SpeculativeContact> all() const {
     return {contacts_.data(), count_};
   }
 
  private:
   void add(std::size_t place, SpeculativeContact contact, double depth);
-  void addEnd(const WallSegment& wall, const Vector2& wallEnd, double depth);
+  void addEnd(const Segment& wall, const Vector2& wallEnd, double depth);
 
   Outline outline_{VehicleParameters{}};
   Placement from_;

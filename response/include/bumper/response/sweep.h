@@ -2,24 +2,22 @@
 
 #include <limits>
 
-#include "bumper/response/contact_point.h"
+#include "bumper/response/touch.h"
 
 namespace bumper {
 
 /// A contact point that approaches more slowly than this, m/s, is at rest to rounding.
 inline constexpr double restTolerance = 1e-9;
 
-/// Where free flight at constant velocity and yaw rate has carried a vehicle after some time, s.
-PlanarMotion advanced(PlanarMotion motion, double time);
-
 /// The time of what does not happen, later than any other.
 inline constexpr double never = std::numeric_limits<double>::max();
 
-/// How long it takes at least, s, to go a distance, m, at a rate, m/s, that changes no faster than
-/// `bend`, m/s². A negative rate leads away first.
-double leastTime(double distance, double rate, double bend);
+/// How long it takes at least, s, to go a distance, m, at a rate, m/s, whose own rate is no more
+/// than `acceleration`, m/s². A negative rate leads away first.
+double leastTime(double distance, double rate, double acceleration);
 
-/// The outline in free flight from time 0 on, at constant velocity and yaw rate.
+/// Continuous collision detection: the outline in free flight from time 0 on, at constant velocity
+/// and yaw rate.
 class Sweep {
  public:
   /// `motion` is the vehicle's at time 0.
@@ -30,7 +28,7 @@ class Sweep {
   /// either. `touch` is what findTouch() says at `from`, or null. `never` if there is none. Exact
   /// to rounding, whatever the speed and the step. Points that are in each other already count
   /// again once they have parted.
-  [[nodiscard]] double timeOfTouch(const WallSegment& wall, const Overlap* touch, double from,
+  [[nodiscard]] double timeOfTouch(const Segment& wall, const Overlap* touch, double from,
                                    double until) const;
 
  private:

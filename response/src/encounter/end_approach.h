@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "bumper/response/planar_motion.h"
+#include "bumper/response/planar_body.h"
 
 namespace bumper {
 
@@ -42,7 +42,6 @@ struct SharedImpulse {
 /// The sum does not depend on the order of the points. The shares make it up to rounding, each with
 /// its moment about the mass centre; where several sets of points could carry it, the order
 /// decides. Between walls that face each other they can be much larger than the sum.
-SharedImpulse endApproach(const PlanarMotion& motion, double mass, double yawInertia,
-                          std::span<const TouchingPoint> points);
+SharedImpulse endApproach(const PlanarBody& body, std::span<const TouchingPoint> points);
 
 }  // namespace bumper

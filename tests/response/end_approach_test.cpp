@@ -1,4 +1,4 @@
-#include "simultaneous_contacts.h"
+#include "encounter/end_approach.h"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ Contacts randomContacts(Random& random) {
 }
 
 SharedImpulse solved(const Contacts& contacts) {
-  return endApproach(contacts.motion, mass, yawInertia, contacts.points);
+  return endApproach({mass, yawInertia, contacts.motion}, contacts.points);
 }
 
 double difference(const PlanarImpulse& a, const PlanarImpulse& b) {
@@ -112,7 +112,7 @@ TEST(SimultaneousContacts, SymmetricPointsShareAlike) {
 TEST(SimultaneousContacts, NothingThatApproachesTakesNothing) {
   const std::vector<TouchingPoint> points{{.normal = {1.0, 0.0}, .arm = {-2.0, 0.5}},
                                           {.normal = {0.0, 1.0}, .arm = {1.0, -0.9}}};
-  const SharedImpulse impulse = endApproach({.velocity = {3.0, 4.0}}, mass, yawInertia, points);
+  const SharedImpulse impulse = endApproach({mass, yawInertia, {.velocity = {3.0, 4.0}}}, points);
   EXPECT_EQ(impulse.count, 0U);
   EXPECT_EQ(impulse.sum.linear, Vector2::Zero());
   EXPECT_EQ(impulse.sum.angular, 0.0);

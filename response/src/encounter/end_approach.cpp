@@ -1,4 +1,4 @@
-#include "simultaneous_contacts.h"
+#include "end_approach.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/QR>
@@ -104,8 +104,8 @@ class Stop {
 
 }  // namespace
 
-SharedImpulse endApproach(const PlanarMotion& motion, double mass, double yawInertia,
-                          std::span<const TouchingPoint> points) {
+SharedImpulse endApproach(const PlanarBody& body, std::span<const TouchingPoint> points) {
+  const auto& [mass, yawInertia, motion] = body;
   const double radius = std::sqrt(yawInertia / mass);
   const Motion before(motion.velocity.x(), motion.velocity.y(), radius * motion.yawRate);
   std::array<Motion, mostTouchingPoints> ways;

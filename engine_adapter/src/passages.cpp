@@ -1,0 +1,29 @@
+// Walls that a vehicle passes through: those that broke are left out until the outline has left
+// them; those whose long force pulse runs are not answered until it ends.
+
+#include <algorithm>
+
+#include "responder_implementation.h"
+
+namespace bumper {
+
+void Responder::Implementation::applyPassages(Vehicle& vehicle) const {
+  NearbyWalls& nearby = vehicle.nearby;
+  std::erase_if(vehicle.memory.passages, [&](const Passage& passage) {
+    const NearbyWalls::Owner owner{.barrier = passage.barrier, .settings = passage.settings};
+    if (passage.until > 0.0) {
+      if (!(time < passage.until)) return true;
+      nearby.enter(owner, passage.depth);
+      return false;
+    }
+    const std::span<const Segment> walls = nearby.all().segments;
+    const bool isInIt = std::any_of(walls.begin(), walls.end(), [&](const Segment& wall) {
+      return nearby.ownerOf(wall) == owner &&
+             findTouch(vehicle.envelope.outline(), {}, wall).has_value();
+    });
+    if (isInIt) nearby.remove(owner);
+    return !isInIt;
+  });
+}
+
+}  // namespace bumper

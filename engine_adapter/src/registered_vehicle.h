@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "bumper/engine_adapter/responder.h"
+#include "envelope.h"
+#include "free_space.h"
+#include "guard_contacts.h"
+#include "nearby_walls.h"
+#include "vehicle_bodies.h"
+
+namespace bumper {
+
+/// A registered vehicle: what it is, what is known of its surroundings, and what is remembered of
+/// it from step to step.
+struct Vehicle {
+  Vehicle(VehicleId id, const VehicleParameters& itsParameters, const Band& band, double tiltLimit,
+          std::string itsName, VehicleBodies itsBodies)
+      : parameters(itsParameters),
+        name(std::move(itsName)),
+        bodies(std::move(itsBodies)),
+        minUprightness(std::cos(tiltLimit)),
+        envelope(itsParameters, band),
+        freeSpace(bodies, envelope, minUprightness) {
+    for (VehicleMemory* each : {&memory, &memoryBefore}) {
+      each->vehicle = id;
+      each->passages.reserve(4);
+      each->contacts.reserve(4);
+    }
+  }
+
+  /// What is read of it before anything is solved in a step.
+  struct Reading {
+    /// The rest is of no meaning otherwise: it is left alone, or certainly away from all walls.
+    bool takesPart = false;
+    VehicleState state;
+    /// In its own axes, as it would be in this step without walls.
+    PlanarMotion motion;
+    /// Joints act on it too, and it may get guard contacts.
+    bool isHeld = false;
+  };
+
+  VehicleParameters parameters;
+  std::string name;
+  VehicleBodies bodies;
+  double minUprightness;
+  Envelope envelope;
+  FreeSpace freeSpace;
+  NearbyWalls nearby;
+  GuardContacts guards;
+  Reading reading;
+  VehicleMemory memory;
+  VehicleMemory memoryBefore;  // as it was before the last step()
+  unsigned issues = step_issue::none;
+
+  /// False also where the rotation is not finite.
+  [[nodiscard]] bool isUpright() const { return uprightness(bodies.chassis()) >= minUprightness; }
+
+  /// What the law works with: the outline as given, mass and inertia as the bodies had them when
+  /// they were read.
+  [[nodiscard]] VehicleParameters parametersNow() const {
+    VehicleParameters result = parameters;
+    result.mass = reading.state.mass;
+    result.yawInertia = reading.state.yawInertia;
+    return result;
+  }
+};
+
+}  // namespace bumper

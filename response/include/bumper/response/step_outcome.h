@@ -1,0 +1,47 @@
+#pragma once
+
+#include <span>
+
+#include "bumper/response/impact.h"
+
+namespace bumper {
+
+/// An impact of one step and the response to it. Its impulse acts at its arm, and leads from the
+/// motion before to the motion after.
+///
+/// The impulse that ends the approach at several points at once is reported as one impact for each
+/// of them, the fastest first. No motion between these existed, and it may be fast where walls face
+/// each other. So approachSpeed is the one before all of them; energyChange and energyRatio are
+/// shares, none of which gains, of what all of them together do to the energy.
+struct StepImpact {
+  double time = 0.0;  ///< of the impact, s from the step's start
+  Impact impact{};
+  ImpactResponse response{};
+  /// A part of a contact that lasts within the step: an end of a wall that a turning side slides
+  /// along.
+  bool slides = false;
+  /// This one and the next are parts of one impulse: what holds of an impulse's energy holds of
+  /// them together.
+  bool isPartOfNext = false;
+};
+
+/// A velocity and yaw rate for one step only: penetration recovery, or what holds a vehicle back.
+struct StepShift {
+  Vector2 velocity = Vector2::Zero();  ///< m/s
+  double yawRate = 0.0;                ///< rad/s
+};
+
+/// What its walls do to a vehicle in one step.
+struct StepOutcome {
+  /// In the order in which they act; valid until the next call.
+  std::span<const StepImpact> impacts;
+  PlanarImpulse impulse;  ///< of all impacts together
+  PlanarMotion after;     ///< at the step's end; the paper's other choice, state reset
+  /// A motion for this step only: it is part of `after`'s position and yaw, not of its velocity.
+  StepShift shift;
+  /// False: after CollisionStep::maxAnswers the vehicle was held where it was for the rest of the
+  /// step.
+  bool settled = true;
+};
+
+}  // namespace bumper

@@ -1,0 +1,183 @@
+#include "contact_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "../tolerances.h"
+#include "bumper/response/sweep.h"
+
+namespace bumper {
+
+namespace {
+
+constexpr double jointWidth = 1e-3;  // m; walls whose ends are no further apart meet
+
+// Whether what is inside the outline of one wall lies behind the face of another.
+bool isBehind(const Overlap& wall, const Overlap& front) {
+  constexpr double tolerance = 1e-6;  // m
+  if (front.byEnd) return false;
+  const Vector2 tangent = turnedLeft(front.normal);
+  const auto hiddenAt = [&](const Vector2& point) {
+    const double along = tangent.dot(point);
+    return front.normal.dot(point) <= front.offset + tolerance &&
+           along >= front.start - tolerance && along <= front.end + tolerance;
+  };
+  return hiddenAt(wall.insideFrom) && hiddenAt(wall.insideTo);
+}
+
+}  // namespace
+
+void ContactSet::begin(std::span<const Segment> segments, std::span<const Surface> surfaces) {
+  surfaces_ = surfaces;
+  manifolds_.clear();
+  for (const Segment& wall : merge_.merge(segments, surfaces, vehicle_.body.motion.position)) {
+    manifolds_.push_back({.segment = wall});
+    manifolds_.back().passed = surfaceOf(manifolds_.back()).entered;
+  }
+}
+
+template <typename OverlapOf>
+void ContactSet::updateBy(const OverlapOf& overlapOf) {
+  place_ = vehicle_.body.motion.placement();
+  for (Manifold& wall : manifolds_) {
+    const std::optional<Overlap> overlap = overlapOf(wall.segment);
+    wall.touched = overlap.has_value();
+    wall.hidden = false;
+    wall.struck = false;
+    if (!overlap) continue;
+    wall.overlap = *overlap;
+    wall.points = touchingPoints(vehicle_.outline, place_, wall.segment, *overlap);
+  }
+  // A wall hides others even if it is hidden itself.
+  for (Manifold& wall : manifolds_) {
+    wall.hidden = wall.touched && !wall.passed && isHidden(wall);
+  }
+}
+
+void ContactSet::update(double time) {
+  updateBy([&](const Segment& wall) { return overlapWith(wall, time); });
+}
+
+void ContactSet::updateByFaces() {
+  updateBy([&](const Segment& wall) { return findOverlap(vehicle_.outline, place_, wall); });
+}
+
+std::optional<Overlap> ContactSet::overlapWith(const Segment& wall, double time) const {
+  const auto byFace = [&] { return findOverlap(vehicle_.outline, place_, wall); };
+  std::optional<Overlap> touch = findTouch(vehicle_.outline, place_, wall);
+  if (!touch || wall.isPost()) return touch;
+  if (time == 0.0 && touch->depth > slidingDepth) return byFace();
+  if (touch->byEnd && isShielded(*touch)) {
+    // The corner of two walls, one of which it touches; or nothing that could be touched.
+    std::optional<Overlap> face = byFace();
+    if (face && time > 0.0 && face->depth > slidingDepth) return std::nullopt;
+    return face;
+  }
+  return touch;
+}
+
+// An end from which another wall leads further into the outline is no end that could be hit.
+bool ContactSet::isShielded(const Overlap& end) const {
+  const Vector2 place = end.deepest * turnedLeft(end.normal) + end.offset * end.normal;
+  return std::any_of(manifolds_.begin(), manifolds_.end(), [&](const Manifold& wall) {
+    if (surfaceOf(wall).entered) return false;
+    const auto leadsIn = [&](const Vector2& from, const Vector2& to) {
+      const double distance = (from - place).norm();
+      return distance <= jointWidth && distance < (to - place).norm() &&
+             end.normal.dot(to - from) > inLine * (to - from).norm();
+    };
+    return leadsIn(wall.segment.start, wall.segment.end) ||
+           leadsIn(wall.segment.end, wall.segment.start);
+  });
+}
+
+// What lies behind a wall that the outline is already in cannot be hit: its back, the ends of a
+// slab, a second skin.
+bool ContactSet::isHidden(const Manifold& wall) const {
+  return std::any_of(manifolds_.begin(), manifolds_.end(), [&](const Manifold& other) {
+    if (&wall == &other || !other.touched || other.passed) return false;
+    if (!isBehind(wall.overlap, other.overlap)) return false;
+    if (!isBehind(other.overlap, wall.overlap)) return true;
+    // Each behind the other: a convex corner. The vehicle came in over the one touched last.
+    const double own = sinceTouch(wall);
+    const double others = sinceTouch(other);
+    return own > others || (own == others && &wall > &other);
+  });
+}
+
+Approach ContactSet::approach(const ContactPoint& contact, const Vector2& normal) const {
+  return {contact, normal, -velocityAt(vehicle_.body.motion, contact.arm).dot(normal)};
+}
+
+Approach ContactSet::touching(const Manifold& wall) const {
+  const std::span<const ContactPoint> points = wall.points.all();
+  Approach best = approach(points.front(), wall.overlap.normal);
+  if (best.speed > restTolerance) return best;
+  for (const ContactPoint& other : points.subspan(1)) {
+    const Approach point = approach(other, wall.overlap.normal);
+    if (point.speed > best.speed) best = point;
+  }
+  return best;
+}
+
+double ContactSet::sinceTouch(const Manifold& wall, double speed) {
+  return std::max(wall.overlap.depth - touchTolerance, 0.0) / speed;
+}
+
+// Infinite for a wall that is not approached.
+double ContactSet::sinceTouch(const Manifold& wall) const {
+  const double speed = touching(wall).speed;
+  return speed > restTolerance ? sinceTouch(wall, speed) : std::numeric_limits<double>::infinity();
+}
+
+Approach ContactSet::middleOfChain(const Manifold& struck, double penetration) const {
+  const Overlap& first = struck.overlap;
+  const auto alone = [&] {
+    return approach(contactPoint(vehicle_.outline, place_, struck.segment, first, penetration),
+                    first.normal);
+  };
+  if (struck.segment.isPost() || penetration <= 0.0) return alone();
+  const Vector2 centre = vehicle_.body.motion.position;
+  Placement moved = place_;
+  moved.position += moveTo(first, centre, penetration) * first.normal;
+  Vector2 middle = Vector2::Zero();
+  Vector2 normal = Vector2::Zero();
+  double total = 0.0;
+  const auto facing = [&](const Manifold& wall) -> Vector2 {
+    return &wall == &struck ? first.normal : normalTowards(wall.segment, centre);
+  };
+  const auto include = [&](const Manifold& wall) {
+    const Interference inside = interference(vehicle_.outline, moved, wall.segment);
+    const double bend = std::abs(cross(first.normal, facing(wall)));
+    const double weight = inside.length() * std::max(0.0, 1.0 - bend / nearlyInLine);
+    if (inside.empty || weight == 0.0) return;
+    middle += weight * inside.middle();
+    normal += weight * facing(wall);
+    total += weight;
+  };
+  include(struck);
+  for (const bool forward : {true, false}) {
+    const Manifold* last = &struck;
+    for (std::size_t length = 1; length < manifolds_.size(); ++length) {
+      const Vector2 joint = forward ? last->segment.end : last->segment.start;
+      const auto next =
+          std::find_if(manifolds_.begin(), manifolds_.end(), [&](const Manifold& wall) {
+            return &wall != last && !surfaceOf(wall).entered &&
+                   &settingsOf(wall) == &settingsOf(struck) &&
+                   (joint - (forward ? wall.segment.start : wall.segment.end)).norm() <=
+                       jointWidth &&
+                   first.normal.dot(facing(wall)) > 0.0 &&
+                   std::abs(cross(first.normal, facing(wall))) < nearlyInLine;
+          });
+      if (next == manifolds_.end()) break;
+      include(*next);
+      last = &*next;
+    }
+  }
+  if (total == 0.0) return alone();
+  middle /= total;
+  return approach({.point = middle, .arm = middle - moved.position}, normal.normalized());
+}
+
+}  // namespace bumper

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bumper/response/contact_point.h"
+#include "bumper/response/response_settings.h"
+#include "participant.h"
+#include "wall_merge.h"
+
+namespace bumper {
+
+/// One point of the outline, a wall's normal there, and how fast they close, m/s.
+struct Approach {
+  ContactPoint contact{};
+  Vector2 normal = Vector2::Zero();
+  double speed = 0.0;
+};
+
+/// The contact manifold of a vehicle and one wall nearby, and what became of it in this step.
+struct Manifold {
+  Segment segment;
+  Overlap overlap{};          ///< if touched
+  ContactPoints points{};     ///< all that touches, the first point before others; if touched
+  bool touched = false;       ///< the outline touches or overlaps the wall
+  bool hidden = false;        ///< … but it lies behind another touched wall
+  bool struck = false;        ///< … and `answered` has had an impulse at this instant
+  bool passed = false;        ///< it lets the vehicle through, or takes part no more in this step
+  double ignoredUntil = 0.0;  ///< touches before this time were looked at, to no effect
+  Approach answered{};
+};
+
+/// The walls near a vehicle, merged, and how its outline touches them where it is now.
+class ContactSet {
+ public:
+  explicit ContactSet(const Participant& vehicle) : vehicle_(vehicle) {}
+
+  void begin(std::span<const Segment> segments, std::span<const Surface> surfaces);
+
+  /// Finds what the outline touches where it is now, `time` seconds into the step: within
+  /// touchTolerance, along the direction of least penetration.
+  void update(double time);
+  /// The same by the paper's view: what overlaps, along the wall's own normal.
+  void updateByFaces();
+
+  [[nodiscard]] std::span<Manifold> all() { return manifolds_; }
+  [[nodiscard]] std::span<const Manifold> all() const { return manifolds_; }
+  [[nodiscard]] const Surface& surfaceOf(const Manifold& wall) const {
+    return surfaces_[static_cast<std::size_t>(wall.segment.surface)];
+  }
+  [[nodiscard]] const ResponseSettings& settingsOf(const Manifold& wall) const {
+    return *surfaceOf(wall).settings;
+  }
+  /// The id of the segment at a place of a wall.
+  [[nodiscard]] int pieceAt(const Manifold& wall, const Vector2& point) const {
+    return merge_.pieceAt(wall.segment, point);
+  }
+
+  [[nodiscard]] Approach approach(const ContactPoint& contact, const Vector2& normal) const;
+  /// Of the point of first touch and what else touches: the first if it approaches, else the
+  /// fastest.
+  [[nodiscard]] Approach touching(const Manifold& wall) const;
+  /// How long ago the wall was touched at such a speed, s.
+  [[nodiscard]] static double sinceTouch(const Manifold& wall, double speed);
+  /// The middle of the line of interference with a wall and the walls that go on from its ends with
+  /// a slight bend, each counting by its length and the less the more it is bent. A wall that is
+  /// not quite flat is hit like a flat one.
+  [[nodiscard]] Approach middleOfChain(const Manifold& struck, double penetration) const;
+
+ private:
+  template <typename OverlapOf>
+  void updateBy(const OverlapOf& overlapOf);
+  [[nodiscard]] std::optional<Overlap> overlapWith(const Segment& wall, double time) const;
+  [[nodiscard]] bool isShielded(const Overlap& end) const;
+  [[nodiscard]] bool isHidden(const Manifold& wall) const;
+  [[nodiscard]] double sinceTouch(const Manifold& wall) const;
+
+  const Participant& vehicle_;
+  std::span<const Surface> surfaces_;
+  WallMerge merge_;
+  std::vector<Manifold> manifolds_;
+  Placement place_;  // of the vehicle, when last updated
+};
+
+}  // namespace bumper

@@ -1,0 +1,156 @@
+#include "encounter.h"
+
+#include <algorithm>
+
+#include "bumper/response/sweep.h"
+
+namespace bumper {
+
+namespace {
+
+// Part of a depth that is recovered in a step, and what is left in peace, m.
+constexpr double recoveryShare = 0.2;
+constexpr double allowedDepth = 1e-4;
+
+// Part of a step after which a touch without effect is looked at again.
+constexpr double lookAgain = 0.01;
+
+// What touches and does not approach is looked at again before it can be deeper than that in each
+// other, m.
+constexpr double unseenDepth = 1e-6;
+
+}  // namespace
+
+StepOutcome Encounter::resolve(const PlanarBody& body, const Outline& outline,
+                               const CollisionStep::Walls& walls, double h) {
+  vehicle_ = {.body = body, .outline = outline};
+  PlanarMotion& motion = vehicle_.body.motion;
+  contacts_.begin(walls.segments, walls.surfaces);
+  instant_.begin(h);
+  StepOutcome outcome;
+
+  contacts_.update(0.0);
+  if (h > 0.0) {
+    outcome.shift.velocity = recoveryVelocity(h);
+    if (!outcome.shift.velocity.isZero(0.0)) {
+      motion.position += h * outcome.shift.velocity;
+      contacts_.update(0.0);
+    }
+  }
+
+  double time = 0.0;
+  Settled settled = instant_.settle(time);
+  while (settled != Settled::for_now && h > 0.0) {
+    const double look = time + pause(h);
+    const NextTouch next = nextTouch(time, std::min(look, h));
+    if (next.wall == nullptr && look >= h) break;
+    motion = advanced(motion, next.time - time);
+    time = next.time;
+    contacts_.update(time);
+    settled = instant_.settle(time);
+    if (settled == Settled::without_impulse && next.wall != nullptr) {
+      next.wall->ignoredUntil = time + lookAgain * h;
+    }
+  }
+
+  outcome.impacts = instant_.impacts();
+  for (const StepImpact& impact : outcome.impacts) outcome.impulse += impact.response.impulse;
+  outcome.settled = settled != Settled::for_now;
+  if (outcome.settled || !(h > 0.0)) {
+    outcome.after = advanced(motion, h - time);
+  } else {
+    // Where it would go is not known: it waits.
+    outcome.after = motion;
+    const double share = (h - time) / h;
+    outcome.shift.velocity -= share * motion.velocity;
+    outcome.shift.yawRate -= share * motion.yawRate;
+  }
+  return outcome;
+}
+
+// Of all walls that the outline penetrates: the velocity that takes it out a little.
+Vector2 Encounter::recoveryVelocity(double h) const {
+  constexpr double most = CollisionStep::maxRecoverySpeed;
+  Vector2 velocity = Vector2::Zero();
+  for (const Manifold& wall : contacts_.all()) {
+    if (!wall.touched || wall.hidden || wall.passed) continue;
+    const double depth = wall.overlap.depth - allowedDepth;
+    if (depth <= 0.0) continue;
+    const double wanted = std::min(recoveryShare * depth / h, most);
+    const double missing = wanted - velocity.dot(wall.overlap.normal);
+    if (missing > 0.0) velocity += missing * wall.overlap.normal;
+  }
+  const double speed = velocity.norm();
+  return speed > most ? Vector2(most / speed * velocity) : velocity;
+}
+
+// The next touch after `from`, and its wall; null if there is none before `until`.
+Encounter::NextTouch Encounter::nextTouch(double from, double until) {
+  NextTouch next{.time = until, .wall = nullptr};
+  const Sweep sweep(vehicle_.outline, vehicle_.body.motion);
+  for (Manifold& wall : contacts_.all()) {
+    if (wall.passed) continue;
+    const double start = std::max(from, wall.ignoredUntil);
+    if (start > next.time) continue;
+    // The body's motion is that at `from`.
+    const double time =
+        from + sweep.timeOfTouch(wall.segment, wall.touched ? &wall.overlap : nullptr, start - from,
+                                 next.time - from);
+    if (time <= next.time) next = {.time = time, .wall = &wall};
+  }
+  return next;
+}
+
+// How long a wall that is touched can be left alone, s: none of the points that touch can approach
+// before, or be deeper than `unseenDepth`.
+double Encounter::quietTime(const Manifold& wall, double h) const {
+  const PlanarMotion& motion = vehicle_.body.motion;
+  const double acceleration = vehicle_.gapAcceleration();
+  if (wall.hidden) return leastTime(unseenDepth, 0.0, acceleration);
+  const Overlap& overlap = wall.overlap;
+  const Vector2 tangent = turnedLeft(overlap.normal);
+  double time = never;
+  for (const ContactPoint& contact : wall.points.all()) {
+    const Vector2 velocity = velocityAt(motion, contact.arm);
+    const double along = tangent.dot(contact.point);
+    const bool isCorner =
+        !overlap.byEnd && std::min(along - overlap.start, overlap.end - along) > touchTolerance;
+    // Turning draws a corner away from the wall as long as it lies on the wall's side of the mass
+    // centre; at the step's end, too.
+    const double highest =
+        overlap.normal.dot(contact.arm) + std::abs(motion.yawRate) * h * vehicle_.outline.radius();
+    if (!isCorner || highest > 0.0) {
+      time = std::min(time, leastTime(unseenDepth, -overlap.normal.dot(velocity), acceleration));
+    }
+  }
+  return time;
+}
+
+// How long all that touches now can be left alone, s.
+double Encounter::pause(double h) const {
+  double time = never;
+  for (const Manifold& wall : contacts_.all()) {
+    if (wall.touched && !wall.passed) time = std::min(time, quietTime(wall, h));
+  }
+  return std::max(time, h / looksInStep);
+}
+
+std::span<const SpeculativeContact> Encounter::speculativeContacts(const PlanarMotion& motion,
+                                                                   const PlanarMotion& after,
+                                                                   double distance, double h) {
+  speculative_.begin(vehicle_.outline, motion, after, distance, h);
+  vehicle_.body.motion = motion;
+  contacts_.update(0.0);
+  const double fastest = vehicle_.fastest();
+  for (const Manifold& wall : contacts_.all()) {
+    const Surface& surface = contacts_.surfaceOf(wall);
+    if (breaks(*surface.settings) || wall.hidden) continue;
+    // A long force pulse lets the vehicle in.
+    const double depth =
+        surface.entered ? surface.depth : enteredDepth(fastest, surface.settings->contactTime);
+    speculative_.addWall(wall.segment, wall.touched ? &wall.overlap : nullptr, depth);
+  }
+  return speculative_.all();
+}
+
+}  // namespace bumper

@@ -1,0 +1,178 @@
+#include "instant.h"
+
+#include <algorithm>
+#include <array>
+
+#include "../tolerances.h"
+#include "bumper/response/collision_step.h"
+#include "bumper/response/sweep.h"
+#include "end_approach.h"
+
+namespace bumper {
+
+namespace {
+
+constexpr int maxAnswers = CollisionStep::maxAnswers;
+
+// From this many impacts at one instant on, none rebounds; from the next many on they are solved
+// together. Towards the end of what one step allows none rebounds either.
+constexpr int plasticAfter = 8;
+constexpr int togetherAfter = 16;
+constexpr int plasticInStepAfter = 40;
+
+// Solved together are the last impacts of a step, and those before which as many were not.
+constexpr int mostTogether = (maxAnswers - 1) / (togetherAfter + 1) + 1;
+static_assert(CollisionStep::maxImpacts ==
+              maxAnswers + mostTogether * (static_cast<int>(mostCarryingPoints) - 1));
+
+}  // namespace
+
+Instant::Instant(Participant& vehicle, ContactSet& contacts)
+    : vehicle_(vehicle), contacts_(contacts) {
+  impacts_.reserve(CollisionStep::maxImpacts);
+}
+
+void Instant::begin(double step) {
+  step_ = step;
+  answers_ = 0;
+  impacts_.clear();
+}
+
+Settled Instant::settle(double time) {
+  for (int count = 0;; ++count) {
+    Next next = firstNewWall();
+    if (next.wall == nullptr) next = fastestStruckWall();
+    if (next.wall == nullptr) return count > 0 ? Settled::by_impulses : Settled::without_impulse;
+    const bool last = answers_ + 1 == maxAnswers;
+    if (last || count >= togetherAfter) {
+      answerTogether(time);
+      return last ? Settled::for_now : Settled::by_impulses;
+    }
+    // Unless it approaches faster than it can have become since it was last looked at.
+    const Overlap& overlap = next.wall->overlap;
+    const bool slides = time > 0.0 && overlap.byEnd && overlap.depth > freshDepth &&
+                        next.at.speed <= vehicle_.gapAcceleration() * step_ / looksInStep;
+    const bool tooMany = count >= plasticAfter || (!slides && answers_ >= plasticInStepAfter);
+    Rebound rebound = slides ? Rebound::elastic : Rebound::as_set;
+    if (tooMany) rebound = Rebound::none;
+    answer(next, time, rebound);
+    impacts_.back().slides = slides;
+  }
+}
+
+// Of the walls that have had no impulse yet the one that was touched the longest time ago.
+Instant::Next Instant::firstNewWall() {
+  Next next;
+  double longest = -1.0;
+  for (Manifold& wall : contacts_.all()) {
+    if (!wall.touched || wall.hidden || wall.struck || wall.passed) continue;
+    const Approach first = contacts_.touching(wall);
+    if (first.speed <= restTolerance) continue;
+    const double since = ContactSet::sinceTouch(wall, first.speed);
+    if (since <= longest) continue;
+    longest = since;
+    wall.answered =
+        contacts_.middleOfChain(wall, first.speed * contacts_.settingsOf(wall).penetrationTime);
+    next = {.wall = &wall, .at = wall.answered.speed > restTolerance ? wall.answered : first};
+  }
+  return next;
+}
+
+// Of the walls that have had their impulse the one that some point still approaches fastest.
+Instant::Next Instant::fastestStruckWall() {
+  Next next;
+  next.at.speed = restTolerance;
+  for (Manifold& wall : contacts_.all()) {
+    if (!wall.struck || wall.passed) continue;
+    for (const Approach& point :
+         {contacts_.touching(wall),
+          contacts_.approach(wall.answered.contact, wall.answered.normal)}) {
+      if (point.speed > next.at.speed) next = {.wall = &wall, .at = point};
+    }
+  }
+  return next;
+}
+
+void Instant::answer(const Next& next, double time, Rebound rebound) {
+  Manifold& wall = *next.wall;
+  const ImpactResponse response = respond({.normal = next.at.normal, .arm = next.at.contact.arm},
+                                          vehicle_.body, contacts_.settingsOf(wall), rebound);
+  record(wall, next.at, time, response);
+  wall.struck = true;
+  ++answers_;
+  if (!response.brokeThrough) return;
+  for (Manifold& other : contacts_.all()) {
+    other.passed |= other.segment.surface == wall.segment.surface;
+  }
+}
+
+// All that touches pushes at once. It is reported as one impact after the other, of which each fits
+// its own arm and all of them what they do together: the energy that they take together goes by
+// impulse and approach speed.
+void Instant::answerTogether(double time) {
+  std::array<TouchingPoint, mostTouchingPoints> points;
+  std::array<Next, mostTouchingPoints> owners;
+  std::size_t count = 0;
+  for (Manifold& wall : contacts_.all()) {
+    if (!wall.touched || wall.hidden || wall.passed) continue;
+    for (const ContactPoint& contact : wall.points.all()) {
+      if (count == points.size()) break;
+      points[count] = {.normal = wall.overlap.normal, .arm = contact.arm};
+      owners[count++] = {.wall = &wall, .at = contacts_.approach(contact, wall.overlap.normal)};
+    }
+  }
+  const PlanarBody before = vehicle_.body;
+  SharedImpulse impulse = endApproach(before, std::span(points.data(), count));
+  const std::span<CarryingPoint> shares = impulse.all();
+  const auto speedAt = [&](const CarryingPoint& share) { return owners[share.point].at.speed; };
+  for (auto next = shares.begin(); next != shares.end(); ++next) {
+    std::iter_swap(next, std::max_element(next, shares.end(), [&](const auto& a, const auto& b) {
+                     return speedAt(a) < speedAt(b);
+                   }));
+  }
+
+  PlanarBody after = before;
+  after.apply(impulse.sum);
+  double energy = before.energy();
+  const double change = after.energy() - energy;
+  const auto weightOf = [&](const CarryingPoint& share) {
+    return share.impulse * std::max(speedAt(share), 0.0);
+  };
+  double weight = 0.0;
+  for (const CarryingPoint& share : shares) weight += weightOf(share);
+
+  PlanarImpulse left = impulse.sum;
+  for (const CarryingPoint& share : shares) {
+    const auto& [wall, at] = owners[share.point];
+    const bool last = &share == &shares.back();
+    // The last one takes what rounding leaves.
+    const PlanarImpulse part =
+        last ? left : onVehicle({.normal = share.impulse}, at.normal, at.contact.arm);
+    left.linear -= part.linear;
+    left.angular -= part.angular;
+    ImpactResponse response =
+        plainResponse({.normal = at.normal, .arm = at.contact.arm}, vehicle_.body, part);
+    if (last) response.after = after.motion;
+    response.approachSpeed = at.speed;
+    response.contact.energyChange = change * weightOf(share) / weight;
+    const double kept = std::max(energy + response.contact.energyChange, 0.0);
+    response.energyRatio = energy > 0.0 ? kept / energy : 1.0;
+    energy = kept;
+    record(*wall, at, time, response);
+    impacts_.back().isPartOfNext = !last;
+  }
+  ++answers_;
+}
+
+void Instant::record(const Manifold& wall, const Approach& at, double time,
+                     const ImpactResponse& response) {
+  const Impact impact{.wall = contacts_.pieceAt(wall, at.contact.point),
+                      .point = at.contact.point,
+                      .normal = at.normal,
+                      .arm = at.contact.arm,
+                      .depth = std::max(wall.overlap.depth, 0.0)};
+  impacts_.push_back({.time = time, .impact = impact, .response = response});
+  vehicle_.body.motion = response.after;
+}
+
+}  // namespace bumper
