@@ -210,7 +210,7 @@ TEST_F(SceneFiles, MissingUpIsAnErrorWithBothReadings) {
       ThrowsMessage<Error>("scene file \"" + file.string() +
                            "\" does not state which axis is up (format: Wavefront Object): set "
                            "LoadOptions::up. It extends 4 x 6 x 2.5 (x, y, z); of 8 triangles, "
-                           "4 are walls with y up, 6 with z up"));
+                           "by their slope, 4 are walls with y up, 6 with z up"));
   EXPECT_EQ(selectWalls(loadScene(file, {.up = UpAxis::y})).report.walls, 4U);
   EXPECT_EQ(selectWalls(loadScene(file, {.up = UpAxis::z})).report.walls, 6U);
 }

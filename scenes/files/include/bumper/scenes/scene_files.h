@@ -66,8 +66,9 @@ struct LoadReport {
 ///
 /// Throws Error, naming the file, if it cannot be read, holds no triangle, has an index out of
 /// range or a coordinate that is not finite (with the mesh's name), does not say which axis is up
-/// while `options` does not either (with extents and number of walls for y and for z up), or, in
-/// isolation, makes the reader crash, take too long or need too much memory.
+/// while `options` does not either (with extents and, for y and for z up, how many triangles are
+/// walls by their slope), or, in isolation, makes the reader crash, take too long or need too much
+/// memory.
 Scene loadScene(const std::filesystem::path& file, const LoadOptions& options = {},
                 LoadReport* report = nullptr);
 
