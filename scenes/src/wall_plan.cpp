@@ -6,7 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "plan_distance.h"
+#include "plan_segment.h"
+#include "single_precision.h"
 
 namespace bumper {
 
@@ -19,9 +20,6 @@ constexpr double coarseness = 0.05;
 constexpr double longestLine = 32.0;
 
 constexpr double smallestCell = 8.0;  // m
-
-// Single precision rounds by no more than this part of a number.
-constexpr double rounding = 1.2e-7;
 
 /// A wall in plan: its longest side, and the corner that is left.
 struct Footprint {
@@ -176,7 +174,7 @@ WallPlan::WallPlan(const std::vector<Wall>& walls) {
   }
   origin_ = low;
   const double farthest = (high - low).maxCoeff();
-  Builder builder(nodes_, origin_, 2.0 * rounding * farthest + 1e-9);
+  Builder builder(nodes_, origin_, 2.0 * singlePrecisionRounding * farthest + 1e-9);
   for (const Wall& wall : walls) builder.add(Footprint(wall));
   builder.finish();
   nodes_.shrink_to_fit();
