@@ -20,12 +20,12 @@ inline Corners sorted(Corners corners) {
 }
 
 /// Numbers triangles by their sorted corners; one allocation serves all.
-class CornersTable {
+class TriangleTable {
  public:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
   /// For at most so many different triangles.
-  explicit CornersTable(std::size_t most) : slots_(std::bit_ceil(2 * most + 1), none) {
+  explicit TriangleTable(std::size_t most) : slots_(std::bit_ceil(2 * most + 1), none) {
     keys_.reserve(most);
   }
 

@@ -103,7 +103,7 @@ void dropDegenerate(Scene& scene, LoadReport& report) {
 }
 
 void dropDuplicates(Scene& scene, LoadReport& report) {
-  CornersTable seen(scene.triangles.size());
+  TriangleTable seen(scene.triangles.size());
   report.droppedDuplicate = std::erase_if(scene.triangles, [&](const Scene::Triangle& triangle) {
     return !seen.insert(sorted(triangle.corners));
   });
