@@ -11,8 +11,8 @@ namespace bumper {
 /// triangles lie one upon another.
 inline constexpr std::size_t maxVisits = 256;
 
-/// Boxes under boxes around four of them each, and so on: which of them are near another? In single
-/// precision, and never too few.
+/// Hierarchy of bounding boxes, four children to a node: finds the boxes near another. In single
+/// precision, rounded outward: it misses none.
 class BoxTree {
  public:
   explicit BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes);

@@ -29,7 +29,7 @@ class TriangleTable {
     keys_.reserve(most);
   }
 
-  /// Gives a triangle that is not known yet the next number, from 0 on; false if it is known.
+  /// Gives a triangle that is not in the table yet the next number, from 0 on; false if it is.
   bool insert(const Corners& corners) {
     std::uint32_t& slot = slots_[slotOf(corners)];
     if (slot != none) return false;
@@ -38,7 +38,7 @@ class TriangleTable {
     return true;
   }
 
-  /// The number of a triangle; `none` if it is not known.
+  /// The number of a triangle; `none` if it is not in the table.
   [[nodiscard]] std::uint32_t find(const Corners& corners) const { return slots_[slotOf(corners)]; }
 
  private:

@@ -1,6 +1,6 @@
 // Where is ground, and how high?
 //
-// Flat triangles that hang together at corners and are wide enough for a vehicle are ground. A grid
+// Flat triangles that are connected at corners and are wide enough for a vehicle are ground. A grid
 // of cells keeps the heights of the ground triangles whose bounding rectangles touch each cell;
 // heights that are close together are kept as one range. All of this errs towards more ground, and
 // so towards more walls.
@@ -44,7 +44,7 @@ std::vector<std::uint32_t> flatTriangles(const Scene& scene, double maxNormalUp)
   return flat;
 }
 
-/// Pieces of what hangs together, by their corners.
+/// Connected components, by their corners (union-find).
 class Pieces {
  public:
   explicit Pieces(std::size_t corners) : parents_(corners) {

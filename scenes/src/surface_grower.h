@@ -31,7 +31,8 @@ class WallsAtCorners {
   std::vector<std::uint32_t> walls_;
 };
 
-/// Grows surfaces: walls that hang together at corners and face nearly the same way.
+/// Region growing: takes surfaces, walls that are connected at corners and face nearly the same
+/// way.
 class SurfaceGrower {
  public:
   /// Both must outlive it. `corners` names the corners of each wall by numbers that are equal where
@@ -40,7 +41,7 @@ class SurfaceGrower {
 
   [[nodiscard]] bool isTaken(std::uint32_t wall) const { return taken_[wall]; }
 
-  /// The walls not yet taken that hang together with `seed` and face as it does, or the opposite
+  /// The walls not yet taken that are connected to `seed` and face as it does, or the opposite
   /// way.
   std::vector<std::uint32_t> take(std::uint32_t seed);
 

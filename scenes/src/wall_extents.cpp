@@ -1,6 +1,6 @@
 // How tall is the wall that a triangle is a part of?
 //
-// Walls that hang together at corners and face nearly the same way form a surface. Seen from the
+// Walls that are connected at corners and face nearly the same way form a surface. Seen from the
 // front a surface is cut into columns at the ends of its triangles' stretches; in each column the
 // triangles that overlap or touch one another in height make one piece of wall. A triangle reaches
 // from the lowest to the highest point of its pieces over its own columns.

@@ -110,7 +110,7 @@ std::size_t WallPlan::rowAt(double y) const {
 }
 
 // Lowers `until` to where the first of the lines begins that is in the strip.
-void WallPlan::lookAt(const Run& run, const PlanStrip& strip, double& until) const {
+void WallPlan::shorten(const Run& run, const PlanStrip& strip, double& until) const {
   const double offsetX = origin_.x() - strip.origin.x();
   const double offsetY = origin_.y() - strip.origin.y();
   // In the strip's own axes.
@@ -162,7 +162,7 @@ double WallPlan::freeUntil(const PlanStrip& strip) const {
   for (std::size_t row = rowAt(low.y()); row <= top; ++row) {
     const std::size_t first = firstRun_[row * columns_ + left];
     const std::size_t last = firstRun_[row * columns_ + right + 1];
-    for (std::size_t k = first; k < last; ++k) lookAt(runs_[k], strip, until);
+    for (std::size_t k = first; k < last; ++k) shorten(runs_[k], strip, until);
   }
   return until;
 }
