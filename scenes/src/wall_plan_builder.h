@@ -17,7 +17,7 @@ class WallPlan::Builder {
   /// no more than `roundingError`, m.
   Builder(std::vector<Node>& nodes, Vector2 origin, double roundingError);
 
-  void add(const Wall& wall);
+  void add(const Wall& added);
 
   /// Ends the line that is being put together.
   void finish();
