@@ -13,29 +13,6 @@ namespace {
 
 constexpr double smallestCell = 8.0;  // m
 
-/// A wall in plan: its longest side, and the corner that is left.
-struct Footprint {
-  explicit Footprint(const Wall& wall) {
-    std::array<Vector2, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) corners[k] = wall.corners[k].head<2>();
-    std::size_t third = 0;
-    double longest = -1.0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double length = (corners[(k + 2) % 3] - corners[(k + 1) % 3]).norm();
-      if (length <= longest) continue;
-      longest = length;
-      third = k;
-    }
-    from = corners[(third + 1) % 3];
-    to = corners[(third + 2) % 3];
-    other = corners[third];
-  }
-
-  Vector2 from;
-  Vector2 to;
-  Vector2 other;
-};
-
 }  // namespace
 
 WallPlan::WallPlan(const std::vector<Wall>& walls) {
