@@ -6,12 +6,11 @@
 #include <limits>
 #include <utility>
 
+#include "single_precision.h"
+
 namespace bumper {
 
 namespace {
-
-/// Single precision rounds by no more than this part of a number.
-constexpr double rounding = 1.2e-7;
 
 constexpr float infinite = std::numeric_limits<float>::infinity();
 
@@ -24,13 +23,13 @@ std::uint32_t spread(std::uint32_t bits) {
 }
 
 /// Along a curve that visits the quarters of a square one after another (Morton's).
-std::vector<std::uint32_t> alongCurve(const std::vector<Box>& boxes, const Eigen::Vector2d& low,
-                                      double size) {
+std::vector<std::uint32_t> alongCurve(const std::vector<Eigen::AlignedBox3d>& boxes,
+                                      const Eigen::Vector2d& low, double size) {
   const double scale = size > 0.0 ? 65535.0 / size : 0.0;
   std::vector<std::uint32_t> keys(boxes.size());
   std::vector<std::uint32_t> order(boxes.size());
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-    const Eigen::Vector2d place = scale * (0.5 * (boxes[i].low + boxes[i].high).head<2>() - low);
+    const Eigen::Vector2d place = scale * (0.5 * (boxes[i].min() + boxes[i].max()).head<2>() - low);
     keys[i] = spread(static_cast<std::uint32_t>(place.x())) |
               spread(static_cast<std::uint32_t>(place.y())) << 1U;
     order[i] = i;
@@ -66,27 +65,26 @@ void BoxTree::Node::put(std::size_t child, const Eigen::Array3f& low, const Eige
   highZ[k] = high.z();
 }
 
-BoxTree::BoxTree(const std::vector<Box>& boxes) {
+BoxTree::BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes) {
   if (boxes.empty()) return;
-  Eigen::Vector3d low = boxes.front().low;
-  Eigen::Vector3d high = boxes.front().high;
-  for (const Box& box : boxes) {
-    low = low.cwiseMin(box.low);
-    high = high.cwiseMax(box.high);
-  }
+  Eigen::AlignedBox3d all;
+  for (const Eigen::AlignedBox3d& box : boxes) all.extend(box);
+  const Eigen::Vector3d& low = all.min();
+  const Eigen::Vector3d& high = all.max();
   const double size = (high - low).head<2>().maxCoeff();
   origin_.head<2>() = 0.5 * (low + high).head<2>();
   // For what both the box and that which it is compared with lose.
-  const double around = rounding * size + 1e-9;
-  const double aside = rounding * std::max(std::abs(low.z()), std::abs(high.z())) + 1e-9;
+  const double around = singlePrecisionRounding * size + 1e-9;
+  const double aside =
+      singlePrecisionRounding * std::max(std::abs(low.z()), std::abs(high.z())) + 1e-9;
   const Eigen::Vector3d slack(around, around, aside);
   order_ = alongCurve(boxes, low.head<2>(), size);
 
   std::vector<Node> level((boxes.size() + arity - 1) / arity);
   for (std::size_t i = 0; i < order_.size(); ++i) {
-    const Box& box = boxes[order_[i]];
-    level[i / arity].put(i % arity, (box.low - origin_ - slack).cast<float>(),
-                         (box.high - origin_ + slack).cast<float>());
+    const Eigen::AlignedBox3d& box = boxes[order_[i]];
+    level[i / arity].put(i % arity, (box.min() - origin_ - slack).cast<float>(),
+                         (box.max() - origin_ + slack).cast<float>());
   }
   levels_.push_back(std::move(level));
   while (levels_.back().size() > 1) {

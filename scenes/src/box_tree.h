@@ -1,32 +1,31 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace bumper {
 
-/// An upright box, m.
-struct Box {
-  Eigen::Vector3d low;
-  Eigen::Vector3d high;
-};
+/// Boxes that searches visit, on average for each triangle: bounds the time that meshes take whose
+/// triangles lie one upon another.
+inline constexpr std::size_t maxVisits = 256;
 
-/// Boxes under boxes around four of them each, and so on: which of them are near another? In single
-/// precision, and never too few.
+/// Hierarchy of bounding boxes, four children to a node: finds the boxes near another. In single
+/// precision, rounded outward: it misses none.
 class BoxTree {
  public:
-  explicit BoxTree(const std::vector<Box>& boxes);
+  explicit BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes);
 
   /// Calls `visit` with the number of each box that is no further than `reach`, m, from `other` in
   /// plan, and overlaps it in height, if `enter(squared distance in plan, low, high)`, the last two
   /// its heights, is true of it and of the boxes around it.
   template <typename Enter, typename Visit>
-  void search(const Box& other, double reach, const Enter& enter, const Visit& visit) const {
+  void search(const Eigen::AlignedBox3d& other, double reach, const Enter& enter,
+              const Visit& visit) const {
     if (order_.empty()) return;
-    const Query query{.low = (other.low - origin_).cast<float>(),
-                      .high = (other.high - origin_).cast<float>(),
+    const Query query{.low = (other.min() - origin_).cast<float>(),
+                      .high = (other.max() - origin_).cast<float>(),
                       .reach2 = static_cast<float>(reach * reach)};
     descend(levels_.size() - 1, 0, query, enter, visit);
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "plan_distance.h"
+#include "plan_segment.h"
 
 namespace bumper {
 

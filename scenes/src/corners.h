@@ -20,16 +20,16 @@ inline Corners sorted(Corners corners) {
 }
 
 /// Numbers triangles by their sorted corners; one allocation serves all.
-class CornersTable {
+class TriangleTable {
  public:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
   /// For at most so many different triangles.
-  explicit CornersTable(std::size_t most) : slots_(std::bit_ceil(2 * most + 1), none) {
+  explicit TriangleTable(std::size_t most) : slots_(std::bit_ceil(2 * most + 1), none) {
     keys_.reserve(most);
   }
 
-  /// Gives a triangle that is not known yet the next number, from 0 on; false if it is known.
+  /// Gives a triangle that is not in the table yet the next number, from 0 on; false if it is.
   bool insert(const Corners& corners) {
     std::uint32_t& slot = slots_[slotOf(corners)];
     if (slot != none) return false;
@@ -38,7 +38,7 @@ class CornersTable {
     return true;
   }
 
-  /// The number of a triangle; `none` if it is not known.
+  /// The number of a triangle; `none` if it is not in the table.
   [[nodiscard]] std::uint32_t find(const Corners& corners) const { return slots_[slotOf(corners)]; }
 
  private:

@@ -1,6 +1,6 @@
 // Where is ground, and how high?
 //
-// Flat triangles that hang together at corners and are wide enough for a vehicle are ground. A grid
+// Flat triangles that are connected at corners and are wide enough for a vehicle are ground. A grid
 // of cells keeps the heights of the ground triangles whose bounding rectangles touch each cell;
 // heights that are close together are kept as one range. All of this errs towards more ground, and
 // so towards more walls.
@@ -14,6 +14,8 @@
 #include <limits>
 #include <numeric>
 
+#include "single_precision.h"
+#include "triangle.h"
 #include "weld.h"
 
 namespace bumper {
@@ -27,21 +29,6 @@ constexpr double narrowest = 1.0;
 
 /// Ranges of height of one cell that are no further apart than this, m, become one.
 constexpr float levelGap = 0.5F;
-
-/// A range of heights is widened by this part of them, which single precision may have lost.
-constexpr double roundingShare = 2e-7;
-
-struct Box {
-  Eigen::Vector3d low;
-  Eigen::Vector3d high;
-};
-
-Box boxOf(const Scene& scene, const Scene::Triangle& triangle) {
-  const Eigen::Vector3d& a = scene.corner(triangle, 0);
-  const Eigen::Vector3d& b = scene.corner(triangle, 1);
-  const Eigen::Vector3d& c = scene.corner(triangle, 2);
-  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
-}
 
 std::vector<std::uint32_t> flatTriangles(const Scene& scene, double maxNormalUp) {
   std::vector<std::uint32_t> flat;
@@ -57,7 +44,7 @@ std::vector<std::uint32_t> flatTriangles(const Scene& scene, double maxNormalUp)
   return flat;
 }
 
-/// Pieces of what hangs together, by their corners.
+/// Connected components, by their corners (union-find).
 class Pieces {
  public:
   explicit Pieces(std::size_t corners) : parents_(corners) {
@@ -84,8 +71,7 @@ class Pieces {
 
 struct Extent {
   double area = 0.0;
-  Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Vector2d high = -low;
+  Eigen::AlignedBox2d box;
 };
 
 /// Leaves out what is too narrow for a vehicle.
@@ -116,14 +102,13 @@ void keepWide(const Scene& scene, std::vector<std::uint32_t>& flat) {
     const Eigen::Vector2d v = scene.corner(triangle, 2).head<2>() - a;
     extent.area += 0.5 * std::abs(u.x() * v.y() - u.y() * v.x());
     for (std::size_t k = 0; k < 3; ++k) {
-      extent.low = extent.low.cwiseMin(scene.corner(triangle, k).head<2>());
-      extent.high = extent.high.cwiseMax(scene.corner(triangle, k).head<2>());
+      extent.box.extend(scene.corner(triangle, k).head<2>());
     }
   }
   std::size_t kept = 0;
   for (std::size_t n = 0; n < flat.size(); ++n) {
     const Extent& extent = extents[pieceOf[n]];
-    if (extent.area >= narrowest * (extent.high - extent.low).norm()) flat[kept++] = flat[n];
+    if (extent.area >= narrowest * extent.box.diagonal().norm()) flat[kept++] = flat[n];
   }
   flat.resize(kept);
 }
@@ -182,16 +167,18 @@ GroundLevels::GroundLevels(const Scene& scene, double maxNormalUp, double distan
   std::vector<Eigen::Vector2d> boxes;
   boxes.reserve(2 * ground.size());
   for (const std::uint32_t i : ground) {
-    const Box box = boxOf(scene, scene.triangles[i]);
-    boxes.emplace_back(box.low.head<2>());
-    boxes.emplace_back(box.high.head<2>());
+    const Eigen::AlignedBox3d box = boxOf(cornersOf(scene, scene.triangles[i]));
+    boxes.emplace_back(box.min().head<2>());
+    boxes.emplace_back(box.max().head<2>());
   }
   chooseCellSize(boxes, std::max(0.5 * distance, narrowest));
   first_.assign(static_cast<std::size_t>(across_ * deep_), none);
   for (std::size_t n = 0; n < ground.size(); ++n) {
-    const Box box = boxOf(scene, scene.triangles[ground[n]]);
-    const auto low = static_cast<float>(box.low.z() - roundingShare * std::abs(box.low.z()));
-    const auto high = static_cast<float>(box.high.z() + roundingShare * std::abs(box.high.z()));
+    const Eigen::AlignedBox3d box = boxOf(cornersOf(scene, scene.triangles[ground[n]]));
+    const auto low =
+        static_cast<float>(box.min().z() - singlePrecisionRounding * std::abs(box.min().z()));
+    const auto high =
+        static_cast<float>(box.max().z() + singlePrecisionRounding * std::abs(box.max().z()));
     const Cells cells = cellsOf(boxes[2 * n], boxes[2 * n + 1]);
     for (std::int64_t y = cells.near; y <= cells.far; ++y) {
       for (std::int64_t x = cells.left; x <= cells.right; ++x) {
@@ -202,11 +189,9 @@ GroundLevels::GroundLevels(const Scene& scene, double maxNormalUp, double distan
 }
 
 GroundLevels::Place GroundLevels::placeOf(const Wall& wall, const GroundReach& reach) const {
-  const auto& [a, b, c] = wall.corners;
-  const Eigen::Vector3d low = a.cwiseMin(b).cwiseMin(c);
-  const Eigen::Vector3d high = a.cwiseMax(b).cwiseMax(c);
+  const Eigen::AlignedBox3d box = boxOf(wall.corners);
   const Eigen::Vector2d around = Eigen::Vector2d::Constant(reach.distance);
-  Cells cells = cellsOf(low.head<2>() - around, high.head<2>() + around);
+  Cells cells = cellsOf(box.min().head<2>() - around, box.max().head<2>() + around);
   cells = {std::max<std::int64_t>(cells.left, 0), std::min(cells.right, across_ - 1),
            std::max<std::int64_t>(cells.near, 0), std::min(cells.far, deep_ - 1)};
   bool anyBelow = false;
@@ -217,11 +202,12 @@ GroundLevels::Place GroundLevels::placeOf(const Wall& wall, const GroundReach& r
            i = levels_[i].next) {
         const Level& level = levels_[i];
         any = true;
-        if (static_cast<double>(level.high) + reach.above < low.z()) {
+        if (static_cast<double>(level.high) + reach.above < box.min().z()) {
           anyBelow = true;
           // A wall is judged by its whole surface from above: the ground of one whose upper end is
           // in reach may be elsewhere.
-        } else if (static_cast<double>(level.low) - reach.below <= std::max(high.z(), wall.top)) {
+        } else if (static_cast<double>(level.low) - reach.below <=
+                   std::max(box.max().z(), wall.top)) {
           return Place::within_reach;
         }
       }

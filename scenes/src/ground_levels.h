@@ -12,8 +12,8 @@ namespace bumper {
 /// never less than there is.
 class GroundLevels {
  public:
-  /// `maxNormalUp` as in WallSelection; what is steeper is no ground. `distance` says how finely
-  /// places are told apart.
+  /// `maxNormalUp` as in WallSelection; what is steeper is no ground. `distance`, m, sets the size
+  /// of the cells.
   GroundLevels(const Scene& scene, double maxNormalUp, double distance);
 
   [[nodiscard]] bool empty() const { return levels_.empty(); }

@@ -99,7 +99,7 @@ std::vector<Pair> planeQuads(const std::vector<Wall>& walls, const std::vector<C
 }  // namespace
 
 void dropRepeated(std::vector<Wall>& walls, std::vector<Corners>& corners, WallReport& report) {
-  CornersTable table(walls.size());
+  TriangleTable table(walls.size());
   std::vector<bool> dropped(walls.size(), false);
   for (std::size_t i = 0; i < walls.size(); ++i) {
     dropped[i] = !table.insert(sorted(corners[i]));
@@ -116,7 +116,7 @@ void dropRepeated(std::vector<Wall>& walls, std::vector<Corners>& corners, WallR
     const std::uint32_t s = corners[second.wall].at(second.opposite);
     for (const std::uint32_t end : {first.low, first.high}) {
       const std::uint32_t other = table.find(sorted({r, s, end}));
-      if (other == CornersTable::none || dropped[other]) continue;
+      if (other == TriangleTable::none || dropped[other]) continue;
       dropped[other] = true;
       ++report.droppedRetriangulated;
     }

@@ -1,9 +1,9 @@
 // How tall is the wall that a triangle is a part of?
 //
-// Walls that hang together at corners and face nearly the same way form a part. Seen from the front
-// a part is cut into columns at the ends of its triangles' stretches; in each column the triangles
-// that overlap or touch one another in height make one piece of wall. A triangle reaches from the
-// lowest to the highest point of its pieces over its own columns.
+// Walls that are connected at corners and face nearly the same way form a surface. Seen from the
+// front a surface is cut into columns at the ends of its triangles' stretches; in each column the
+// triangles that overlap or touch one another in height make one piece of wall. A triangle reaches
+// from the lowest to the highest point of its pieces over its own columns.
 
 #include "wall_extents.h"
 
@@ -12,13 +12,11 @@
 #include <limits>
 #include <utility>
 
+#include "surface_grower.h"
+
 namespace bumper {
 
 namespace {
-
-/// Cosine of the angle, 10°, by which a part of a wall may bend away from the triangle that it is
-/// grown from.
-constexpr double minAlignment = 0.985;
 
 /// What is less far apart than this, m, in height is one piece; stretches end together if they do
 /// so within it.
@@ -27,89 +25,6 @@ constexpr double jointWidth = 1e-3;
 /// Columns are made wider where triangles would otherwise be cut into more pieces than this, on
 /// average: it bounds time and memory for meshes without rows and columns of their own.
 constexpr std::size_t maxPiecesPerWall = 8;
-
-/// Which walls meet at a corner.
-class CornerTable {
- public:
-  explicit CornerTable(const std::vector<Corners>& corners) {
-    std::size_t highest = 0;
-    for (const Corners& wall : corners)
-      highest = std::max<std::size_t>({highest, wall[0], wall[1], wall[2]});
-    begins_.assign(highest + 2, 0);
-    for (const Corners& wall : corners) {
-      for (const std::uint32_t corner : wall) ++begins_[corner + 1];
-    }
-    for (std::size_t i = 1; i < begins_.size(); ++i) begins_[i] += begins_[i - 1];
-    walls_.resize(corners.size() * 3);
-    std::vector<std::uint32_t> filled(begins_.begin(), begins_.end() - 1);
-    for (std::uint32_t i = 0; i < corners.size(); ++i) {
-      for (const std::uint32_t corner : corners[i]) walls_[filled[corner]++] = i;
-    }
-  }
-
-  [[nodiscard]] std::size_t corners() const { return begins_.size() - 1; }
-
-  template <typename Visit>
-  void forWallsAt(std::uint32_t corner, Visit visit) const {
-    for (std::uint32_t i = begins_[corner]; i < begins_[corner + 1]; ++i) visit(walls_[i]);
-  }
-
- private:
-  std::vector<std::uint32_t> begins_;
-  std::vector<std::uint32_t> walls_;
-};
-
-/// Horizontal direction in which a wall faces; a flat triangle, which a selection can let pass,
-/// faces wherever it likes.
-Eigen::Vector2d facing(const Wall& wall) {
-  const Eigen::Vector2d horizontal = wall.normal.head<2>();
-  const double length = horizontal.norm();
-  return length > 1e-9 ? Eigen::Vector2d(horizontal / length) : Eigen::Vector2d::UnitX();
-}
-
-/// Takes walls part by part.
-class PartGrower {
- public:
-  PartGrower(const std::vector<Wall>& walls, const std::vector<Corners>& corners)
-      : walls_(walls),
-        corners_(corners),
-        table_(corners),
-        taken_(walls.size(), false),
-        visitedFrom_(table_.corners(), none) {}
-
-  [[nodiscard]] bool isTaken(std::uint32_t wall) const { return taken_[wall]; }
-
-  /// The walls not yet taken that hang together with `seed` and face as it does, or the opposite
-  /// way.
-  std::vector<std::uint32_t> take(std::uint32_t seed) {
-    const Eigen::Vector2d direction = facing(walls_[seed]);
-    std::vector<std::uint32_t> part{seed};
-    taken_[seed] = true;
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      for (const std::uint32_t corner : corners_[part[i]]) {
-        // Once is enough: the corner of a large fan would cost the square of its triangles.
-        if (std::exchange(visitedFrom_[corner], seed) == seed) continue;
-        table_.forWallsAt(corner, [&](std::uint32_t other) {
-          if (taken_[other] || std::abs(facing(walls_[other]).dot(direction)) < minAlignment) {
-            return;
-          }
-          taken_[other] = true;
-          part.push_back(other);
-        });
-      }
-    }
-    return part;
-  }
-
- private:
-  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
-  const std::vector<Wall>& walls_;
-  const std::vector<Corners>& corners_;
-  CornerTable table_;
-  std::vector<bool> taken_;
-  std::vector<std::uint32_t> visitedFrom_;  ///< by corner: the seed of the last part to pass
-};
 
 /// A triangle seen from the front: its corners as (along, up), sorted by the way along.
 using FrontView = std::array<Eigen::Vector2d, 3>;
@@ -203,7 +118,7 @@ std::size_t countPieces(const std::vector<FrontView>& views, const std::vector<d
   return count;
 }
 
-std::vector<Piece> cutIntoColumns(const std::vector<std::uint32_t>& part,
+std::vector<Piece> cutIntoColumns(const std::vector<std::uint32_t>& surface,
                                   const std::vector<FrontView>& views) {
   std::vector<double> ends = columnEnds(views, jointWidth);
   if (countPieces(views, ends) > maxPiecesPerWall * views.size()) {
@@ -216,7 +131,7 @@ std::vector<Piece> cutIntoColumns(const std::vector<std::uint32_t>& part,
     const Stretch stretch = columnsOf(views[i], ends);
     for (std::size_t column = stretch.first; column < stretch.last; ++column) {
       const double to = column + 1 < ends.size() ? ends[column + 1] : ends[column];
-      pieces.push_back({column, heightsBetween(views[i], ends[column], to), part[i]});
+      pieces.push_back({column, heightsBetween(views[i], ends[column], to), surface[i]});
     }
   }
   return pieces;
@@ -253,16 +168,16 @@ void findWallExtents(std::vector<Wall>& walls, const std::vector<Corners>& corne
     wall.top = high;
   }
   if (walls.empty()) return;
-  PartGrower grower(walls, corners);
+  SurfaceGrower grower(walls, corners);
   for (std::uint32_t seed = 0; seed < walls.size(); ++seed) {
     if (grower.isTaken(seed)) continue;
-    const std::vector<std::uint32_t> part = grower.take(seed);
+    const std::vector<std::uint32_t> surface = grower.take(seed);
     const Eigen::Vector2d direction = facing(walls[seed]);
     const Eigen::Vector2d along(-direction.y(), direction.x());
     std::vector<FrontView> views;
-    views.reserve(part.size());
-    for (const std::uint32_t wall : part) views.push_back(seenFromFront(walls[wall], along));
-    std::vector<Piece> pieces = cutIntoColumns(part, views);
+    views.reserve(surface.size());
+    for (const std::uint32_t wall : surface) views.push_back(seenFromFront(walls[wall], along));
+    std::vector<Piece> pieces = cutIntoColumns(surface, views);
     joinPieces(pieces, walls);
   }
 }

@@ -34,7 +34,7 @@ void include(WallPart& part, const WallPart& wall) {
 std::vector<WallPart> wallParts(const Scene& scene, const Walls& walls) {
   const std::vector<Corners> corners = weldedCorners(scene);
   std::vector<WallPart> parts(scene.triangles.size());
-  CornersTable faces(walls.walls.size());
+  TriangleTable faces(walls.walls.size());
   std::vector<std::size_t> faceOf;  // by number in that table: one of its walls
   std::vector<WallPart> upperEdge(scene.vertices.size());  // by corner
   for (const Wall& wall : walls.walls) {
@@ -52,7 +52,7 @@ std::vector<WallPart> wallParts(const Scene& scene, const Walls& walls) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (parts[i].kind == WallPart::Kind::face) continue;
     const std::uint32_t skin = faces.find(sorted(corners[i]));
-    if (skin != CornersTable::none) {
+    if (skin != TriangleTable::none) {
       parts[i] = parts[faceOf[skin]];
       continue;
     }

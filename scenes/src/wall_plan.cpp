@@ -1,168 +1,19 @@
 #include "bumper/scenes/wall_plan.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
-#include "plan_distance.h"
+#include "single_precision.h"
+#include "wall_plan_builder.h"
 
 namespace bumper {
 
 namespace {
 
-// How far walls may lie from the line that stands for them, m.
-constexpr double coarseness = 0.05;
-
-// A longer line would be in too many cells, m.
-constexpr double longestLine = 32.0;
-
 constexpr double smallestCell = 8.0;  // m
 
-// Single precision rounds by no more than this part of a number.
-constexpr double rounding = 1.2e-7;
-
-/// A wall in plan: its longest side, and the corner that is left.
-struct Footprint {
-  explicit Footprint(const Wall& wall) {
-    std::array<Vector2, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) corners[k] = wall.corners[k].head<2>();
-    std::size_t third = 0;
-    double longest = -1.0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double length = (corners[(k + 2) % 3] - corners[(k + 1) % 3]).norm();
-      if (length <= longest) continue;
-      longest = length;
-      third = k;
-    }
-    from = corners[(third + 1) % 3];
-    to = corners[(third + 2) % 3];
-    other = corners[third];
-  }
-
-  Vector2 from;
-  Vector2 to;
-  Vector2 other;
-};
-
 }  // namespace
-
-/// Puts walls that follow one another into one line as long as it stays true to them.
-class WallPlan::Builder {
- public:
-  Builder(std::vector<Node>& nodes, Vector2 origin, double roundingError)
-      : nodes_(nodes), origin_(std::move(origin)), roundingError_(roundingError) {}
-
-  void add(Footprint wall) {
-    const double width = planDistance(wall.from, wall.to, wall.other);
-    if (width > coarseness) {
-      finish();
-      addWide(wall);
-      return;
-    }
-    if (!points_.empty()) {
-      if (coversAll(from_, to_, wall)) {
-        keep(wall);
-        return;
-      }
-      // A line that has only begun may go on at either end.
-      const bool goesOnAtStart = isFirst_ && (isAt(from_, wall.from) || isAt(from_, wall.to)) &&
-                                 !isAt(to_, wall.from) && !isAt(to_, wall.to);
-      if (goesOnAtStart) std::swap(from_, to_);
-      if (isAt(to_, wall.to)) std::swap(wall.from, wall.to);
-      if (isAt(to_, wall.from)) {
-        if (canReplaceEnd(wall)) {
-          to_ = wall.to;
-          keep(wall);
-          return;
-        }
-        if (coversAll(to_, wall.to, wall)) {
-          writeLine();
-          begin(to_, wall.to, wall);
-          isFirst_ = false;
-          return;
-        }
-      }
-      finish();
-    }
-    begin(wall.from, wall.to, wall);
-    isFirst_ = true;
-  }
-
-  /// Ends the line that is being put together.
-  void finish() {
-    if (points_.empty()) return;
-    writeLine();
-    writeNode(to_, -1.0);
-    points_.clear();
-  }
-
- private:
-  static bool isAt(const Vector2& a, const Vector2& b) { return (a - b).norm() <= coarseness; }
-
-  static bool coversAll(const Vector2& from, const Vector2& to, const Footprint& wall) {
-    return planDistance(from, to, wall.from) <= coarseness &&
-           planDistance(from, to, wall.to) <= coarseness &&
-           planDistance(from, to, wall.other) <= coarseness;
-  }
-
-  [[nodiscard]] bool canReplaceEnd(const Footprint& wall) const {
-    return (wall.to - from_).norm() <= longestLine && coversAll(from_, wall.to, wall) &&
-           std::all_of(points_.begin(), points_.end(), [&](const Vector2& point) {
-             return planDistance(from_, wall.to, point) <= coarseness;
-           });
-  }
-
-  void begin(const Vector2& from, const Vector2& to, const Footprint& wall) {
-    points_.clear();
-    from_ = from;
-    to_ = to;
-    keep(wall);
-  }
-
-  void keep(const Footprint& wall) {
-    for (const Vector2& point : {wall.from, wall.to, wall.other}) {
-      if (std::find(points_.begin(), points_.end(), point) == points_.end()) {
-        points_.push_back(point);
-      }
-    }
-  }
-
-  // The line that is being put together, without its end.
-  void writeLine() {
-    double thickness = 0.0;
-    for (const Vector2& point : points_) {
-      thickness = std::max(thickness, planDistance(from_, to_, point));
-    }
-    writeNode(from_, thickness + roundingError_);
-  }
-
-  // One that leans: the line runs along the middle of its triangle.
-  void addWide(const Footprint& wall) {
-    const Vector2 along = wall.to - wall.from;
-    const Vector2 foot =
-        wall.from + (wall.other - wall.from).dot(along) / along.squaredNorm() * along;
-    const Vector2 aside = 0.5 * (wall.other - foot);
-    writeNode(wall.from + aside, aside.norm() + roundingError_);
-    writeNode(wall.to + aside, -1.0);
-  }
-
-  void writeNode(const Vector2& place, double thickness) {
-    const Vector2 local = place - origin_;
-    nodes_.push_back({static_cast<float>(local.x()), static_cast<float>(local.y()),
-                      static_cast<float>(thickness)});
-  }
-
-  std::vector<Node>& nodes_;
-  Vector2 origin_;
-  double roundingError_;  // of a node's place and thickness, m
-
-  Vector2 from_ = Vector2::Zero();
-  Vector2 to_ = Vector2::Zero();
-  std::vector<Vector2> points_;  // that the line stands for; none: there is no line
-  bool isFirst_ = true;          // no line before leads to `from_`
-};
 
 WallPlan::WallPlan(const std::vector<Wall>& walls) {
   if (walls.empty()) return;
@@ -176,8 +27,8 @@ WallPlan::WallPlan(const std::vector<Wall>& walls) {
   }
   origin_ = low;
   const double farthest = (high - low).maxCoeff();
-  Builder builder(nodes_, origin_, 2.0 * rounding * farthest + 1e-9);
-  for (const Wall& wall : walls) builder.add(Footprint(wall));
+  Builder builder(nodes_, origin_, 2.0 * singlePrecisionRounding * farthest + 1e-9);
+  for (const Wall& wall : walls) builder.add(wall);
   builder.finish();
   nodes_.shrink_to_fit();
   size_ = high - low;
@@ -236,7 +87,7 @@ std::size_t WallPlan::rowAt(double y) const {
 }
 
 // Lowers `until` to where the first of the lines begins that is in the strip.
-void WallPlan::lookAt(const Run& run, const PlanStrip& strip, double& until) const {
+void WallPlan::shorten(const Run& run, const PlanStrip& strip, double& until) const {
   const double offsetX = origin_.x() - strip.origin.x();
   const double offsetY = origin_.y() - strip.origin.y();
   // In the strip's own axes.
@@ -288,7 +139,7 @@ double WallPlan::freeUntil(const PlanStrip& strip) const {
   for (std::size_t row = rowAt(low.y()); row <= top; ++row) {
     const std::size_t first = firstRun_[row * columns_ + left];
     const std::size_t last = firstRun_[row * columns_ + right + 1];
-    for (std::size_t k = first; k < last; ++k) lookAt(runs_[k], strip, until);
+    for (std::size_t k = first; k < last; ++k) shorten(runs_[k], strip, until);
   }
   return until;
 }

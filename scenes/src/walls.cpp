@@ -9,6 +9,7 @@
 #include "bumper/response/error.h"
 #include "ground_levels.h"
 #include "repeated_walls.h"
+#include "triangle.h"
 #include "wall_extents.h"
 #include "weld.h"
 
@@ -43,9 +44,8 @@ std::vector<Wall> steepTriangles(const Scene& scene, const WallSelection& select
   std::vector<Wall> steep;
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     const Scene::Triangle& triangle = scene.triangles[i];
-    const Eigen::Vector3d& a = scene.corner(triangle, 0);
-    const Eigen::Vector3d& b = scene.corner(triangle, 1);
-    const Eigen::Vector3d& c = scene.corner(triangle, 2);
+    const TriangleCorners corners = cornersOf(scene, triangle);
+    const auto& [a, b, c] = corners;
     if (!(thickness(a, b, c) >= degenerateThickness)) {
       ++report.droppedDegenerate;
       continue;
@@ -59,7 +59,7 @@ std::vector<Wall> steepTriangles(const Scene& scene, const WallSelection& select
       ++report.droppedScenery;
       continue;
     }
-    steep.push_back({{a, b, c}, normal, static_cast<int>(i), 0.0, 0.0});
+    steep.push_back({corners, normal, static_cast<int>(i), 0.0, 0.0});
   }
   return steep;
 }

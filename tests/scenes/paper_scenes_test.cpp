@@ -15,6 +15,7 @@
 
 #include "bumper/response/error.h"
 #include "bumper/scenes/walls.h"
+#include "scene_measures.h"
 
 namespace bumper {
 namespace {
@@ -23,6 +24,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
+using tests::areaVector;
 
 constexpr double rounding = 1e-9;  // of sums over many triangles of a scene 100 m wide
 
@@ -30,11 +32,6 @@ std::map<std::string, std::size_t> trianglesOfMeshes(const Scene& scene) {
   std::map<std::string, std::size_t> count;
   for (const Scene::Triangle& triangle : scene.triangles) ++count[scene.meshes[triangle.mesh].name];
   return count;
-}
-
-Vector3d areaVector(const Scene& scene, const Scene::Triangle& triangle) {
-  return 0.5 * (scene.corner(triangle, 1) - scene.corner(triangle, 0))
-                   .cross(scene.corner(triangle, 2) - scene.corner(triangle, 0));
 }
 
 Vector3d centre(const Scene& scene, const Scene::Triangle& triangle) {

@@ -8,19 +8,14 @@
 #include <random>
 
 #include "bumper/scenes/walls.h"
+#include "scene_building.h"
 
 namespace bumper {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-void addTriangle(Scene& scene, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  if (scene.meshes.empty()) scene.meshes.resize(1);
-  const auto first = static_cast<std::uint32_t>(scene.vertices.size());
-  scene.vertices.insert(scene.vertices.end(), {a, b, c});
-  scene.triangles.push_back({{first, first + 1, first + 2}, 0});
-}
+using tests::addTriangle;
 
 const std::array<Vector3d, 4> square{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 0, 1),
                                      Vector3d(0, 0, 1)};

@@ -23,6 +23,12 @@ Scene oneTriangle() {
   return scene;
 }
 
+TEST(ScenesComponent, ShowsNoHeadersOfSceneFiles) {
+#if __has_include("bumper/scenes/scene_files.h")
+  FAIL() << "scene_files.h is for those who link bumper::scene_files";
+#endif
+}
+
 TEST(SceneValidation, AcceptsATriangle) { EXPECT_NO_THROW(validate(oneTriangle())); }
 
 TEST(SceneValidation, NamesTheSceneAndTheDefect) {

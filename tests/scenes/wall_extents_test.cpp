@@ -10,26 +10,16 @@
 
 #include "bumper/scenes/paper_scenes.h"
 #include "bumper/scenes/walls.h"
+#include "scene_building.h"
 
 namespace bumper {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using tests::append;
 
 constexpr double rounding = 1e-9;
-
-void append(Scene& scene, const Scene& other) {
-  const auto vertices = static_cast<std::uint32_t>(scene.vertices.size());
-  const auto meshes = static_cast<std::uint32_t>(scene.meshes.size());
-  scene.vertices.insert(scene.vertices.end(), other.vertices.begin(), other.vertices.end());
-  scene.meshes.insert(scene.meshes.end(), other.meshes.begin(), other.meshes.end());
-  for (Scene::Triangle triangle : other.triangles) {
-    for (std::uint32_t& corner : triangle.corners) corner += vertices;
-    triangle.mesh += meshes;
-    scene.triangles.push_back(triangle);
-  }
-}
 
 Scene raised(Scene scene, double height) {
   for (Vector3d& vertex : scene.vertices) vertex.z() += height;

@@ -3,16 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "bumper/scenes/paper_scenes.h"
+#include "scene_building.h"
 
 namespace bumper::tests {
 namespace {
-
-void addTriangle(Scene& scene, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                 const Eigen::Vector3d& c) {
-  const auto first = static_cast<std::uint32_t>(scene.vertices.size());
-  scene.vertices.insert(scene.vertices.end(), {a, b, c});
-  scene.triangles.push_back({.corners = {first, first + 1, first + 2}, .mesh = 0});
-}
 
 std::vector<WallPart> partsOf(const Scene& scene) { return wallParts(scene, selectWalls(scene)); }
 

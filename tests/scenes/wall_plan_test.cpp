@@ -10,6 +10,7 @@
 
 #include "bumper/scenes/clearance.h"
 #include "bumper/scenes/paper_scenes.h"
+#include "scene_building.h"
 
 namespace bumper {
 namespace {
@@ -141,13 +142,7 @@ TEST(WallPlan, StripsBetweenWallsThatStandAlone) {
     const double x = 7.3 * (i % 7);
     const int row = i / 7;
     const double y = 5.9 * row;
-    const Scene wall = straightWall({x, y}, {x + 2.0, y + 0.3 * i}, 1.0);
-    const auto first = static_cast<std::uint32_t>(scene.vertices.size());
-    scene.vertices.insert(scene.vertices.end(), wall.vertices.begin(), wall.vertices.end());
-    for (Scene::Triangle triangle : wall.triangles) {
-      for (std::uint32_t& corner : triangle.corners) corner += first;
-      scene.triangles.push_back(triangle);
-    }
+    tests::append(scene, straightWall({x, y}, {x + 2.0, y + 0.3 * i}, 1.0));
   }
   expectAllKinds(compare(scene, 0.16, 6));
 }

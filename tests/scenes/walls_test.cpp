@@ -9,6 +9,7 @@
 
 #include "bumper/response/error.h"
 #include "bumper/scenes/paper_scenes.h"
+#include "scene_building.h"
 
 namespace bumper {
 namespace {
@@ -16,15 +17,9 @@ namespace {
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
+using tests::addTriangle;
 
 constexpr double degree = std::numbers::pi / 180.0;
-
-void addTriangle(Scene& scene, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  if (scene.meshes.empty()) scene.meshes.resize(1);
-  const auto first = static_cast<std::uint32_t>(scene.vertices.size());
-  scene.vertices.insert(scene.vertices.end(), {a, b, c});
-  scene.triangles.push_back({{first, first + 1, first + 2}, 0});
-}
 
 /// A triangle that leans from the vertical by an angle.
 Scene leaning(double angle) {

@@ -11,12 +11,12 @@ namespace bumper {
 /// and below it.
 inline constexpr double footReach = 0.5;
 
-/// A triangle that stands before a taller wall, no further away than footReach: a plinth, the toe
+/// A triangle at the foot of a taller wall, no further away than footReach: a plinth, the toe
 /// of a concrete barrier, a kerb at its base, a narrow ledge, rocks. Ground is none: a surface no
 /// steeper than 45° that goes on beyond that distance. Nor is a wall of more than 1 m.
 struct WallFoot {
-  int triangle = -1;  ///< in the scene
-  /// Lowest and highest point, m, of the walls that it stands before.
+  int triangle = -1;  ///< index into Scene::triangles
+  /// Lowest and highest point, m, of the walls at whose foot it stands.
   double foot = 0.0;
   double top = 0.0;
 };

@@ -6,10 +6,10 @@
 
 namespace bumper {
 
-/// What a triangle is to the walls of its scene.
+/// The role of a scene's triangle beside the walls selected from the scene.
 struct WallPart {
   enum class Kind {
-    none,  ///< ground, or nothing that has to do with a wall
+    none,  ///< ground, or unrelated to any wall
     face,  ///< a wall, or a second skin of one
     cap    ///< flat, and reaches to the upper edge of a wall: its top, or the ground behind it
   };
@@ -18,7 +18,8 @@ struct WallPart {
   double top = 0.0;   ///< m
 };
 
-/// For each triangle of a scene its part in the walls that were selected from it.
+/// The role of each triangle of a scene, by its index in Scene::triangles; `walls` must have been
+/// selected from that scene.
 std::vector<WallPart> wallParts(const Scene& scene, const Walls& walls);
 
 }  // namespace bumper

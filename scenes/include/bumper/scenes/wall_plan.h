@@ -10,7 +10,7 @@
 
 namespace bumper {
 
-/// A rectangle in the horizontal plane.
+/// A straight corridor: a rectangle in the horizontal plane.
 struct PlanStrip {
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();      ///< on its middle line, m
   Eigen::Vector2d direction = Eigen::Vector2d::UnitX();  ///< unit, along the middle line
@@ -19,20 +19,20 @@ struct PlanStrip {
   double halfWidth = 0.0;                                ///< m
 };
 
-/// All walls as seen from above, whatever their heights, in little memory: walls that go on from
-/// one another are kept as one thick line where that is true to 5 cm, lines in a grid. Tells at
-/// once how far a vehicle may go.
+/// Broad phase over all walls in the horizontal plane, whatever their heights: finds quickly how
+/// far a corridor is free. Takes little memory: walls that go on from one another are one thick
+/// line where that is true to 5 cm, and the lines lie in a uniform grid.
 class WallPlan {
  public:
   /// Of no walls.
   WallPlan() = default;
   explicit WallPlan(const std::vector<Wall>& walls);
 
-  /// How far along its middle line a strip is free, m: between `start` and that place there is
+  /// How far along its middle line a corridor is free, m: between `start` and that place there is
   /// certainly no wall in it, even one that only touches an edge. `end` if there is none at all;
-  /// less than `start` if one reaches over the strip's beginning, or a number is not finite. Short
-  /// of the truth by a few centimetres at walls that stand upright, by at most twice their width in
-  /// plan at those that lean.
+  /// less than `start` if one reaches over the corridor's beginning, or a number is not finite.
+  /// Short of the truth by a few centimetres at walls that stand upright, by at most twice their
+  /// width in plan at those that lean.
   [[nodiscard]] double freeUntil(const PlanStrip& strip) const;
 
   [[nodiscard]] std::size_t memory() const;  ///< bytes
@@ -54,7 +54,7 @@ class WallPlan {
   class Builder;
 
   void sortIntoCells();
-  void lookAt(const Run& run, const PlanStrip& strip, double& until) const;
+  void shorten(const Run& run, const PlanStrip& strip, double& until) const;
   [[nodiscard]] std::size_t columnAt(double x) const;
   [[nodiscard]] std::size_t rowAt(double y) const;
 

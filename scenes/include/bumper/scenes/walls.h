@@ -11,21 +11,22 @@
 
 namespace bumper {
 
-/// A triangle that a vehicle can hit: one of the paper's "vertical elements".
+/// One triangle that a vehicle can hit: one of the paper's "vertical elements". The triangles that
+/// make up a whole barrier or building are as many walls.
 struct Wall {
   std::array<Eigen::Vector3d, 3> corners;
   Eigen::Vector3d normal;  ///< unit, by the triangle's winding, which need not be right
-  int triangle = -1;       ///< in the scene it comes from
+  int triangle = -1;       ///< index into Scene::triangles
   /// Lowest and highest point, m, of the wall surface that the triangle is a part of, over the
   /// triangle's own stretch of it: a wall meshed in several rows is as tall as all of them. The
-  /// surface is what hangs together at corners, bends by less than 10° in plan and has no gap of
+  /// surface is connected at corners, bends by less than 10° in plan and has no gap of
   /// more than 1 mm in height.
   double foot = 0.0;
   double top = 0.0;
 };
 
-/// How far a vehicle reaches that stands anywhere on a scene's ground. The defaults leave room for
-/// lorries, for slopes and for a jump.
+/// How far a vehicle that stands anywhere on a scene's ground can reach. The defaults allow for
+/// lorries, slopes and a jump.
 struct GroundReach {
   double distance = 8.0;  ///< m, horizontally, from the ground that carries it; >= 0, finite
   double above = 4.0;     ///< m above that ground; likewise
@@ -63,10 +64,10 @@ struct WallReport {
   std::size_t droppedRetriangulated = 0;  ///< a plane quad cut along its other diagonal
   std::size_t droppedOverhead = 0;        ///< above what a vehicle on the ground nearby reaches
   std::size_t droppedBuried = 0;          ///< its whole surface lies below that
-  std::size_t withoutGround = 0;  ///< walls with no ground nearby, which were kept therefore
-  std::size_t memory = 0;         ///< bytes that the walls take: here, or with their trees in ODE
-  double lowestFoot = 0.0;        ///< m; 0 without walls
-  double highestTop = 0.0;        ///< m; 0 without walls
+  std::size_t withoutGround = 0;          ///< walls kept because there is no ground nearby
+  std::size_t memory = 0;   ///< bytes that the walls take: here, or with their trees in ODE
+  double lowestFoot = 0.0;  ///< m; 0 without walls
+  double highestTop = 0.0;  ///< m; 0 without walls
 
   [[nodiscard]] std::size_t dropped() const {
     return droppedFlat + droppedDegenerate + droppedScenery + droppedDuplicate +

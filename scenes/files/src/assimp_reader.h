@@ -8,7 +8,7 @@ namespace bumper {
 
 enum class Formats {
   safe,  ///< those that the calling process can be trusted with, chosen by the file's ending
-  all,   ///< whatever assimp knows, by ending and content
+  all,   ///< whatever assimp supports, by ending and content
 };
 
 /// Reads a file with assimp in this process and converts what it holds. Throws Error. `progress`

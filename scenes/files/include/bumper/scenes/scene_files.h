@@ -23,29 +23,29 @@ enum class LoadStage {
 /// How to read a scene file.
 struct LoadOptions {
   /// Needed for formats that state none (OBJ, STL, PLY, AC3D, 3DS, most others). glTF and Collada
-  /// are y-up by their standard, FBX says it in the file; a value given here wins over theirs.
+  /// are y-up by their standard, FBX states it in the file; a value given here overrides theirs.
   std::optional<UpAxis> up = std::nullopt;
 
   /// Multiplies all lengths, after the unit that the file states (FBX, Collada) was turned into
   /// metres; > 0. A file that states no unit is taken to be in metres.
   double scale = 1.0;
 
-  /// Reads the file in a process of its own, so that nothing a broken or hostile file does to the
-  /// reader can touch the caller: for files that one did not make oneself. Any format that assimp
-  /// knows. Needs the program bumper-read-scene, which is looked for where the environment variable
-  /// BUMPER_READ_SCENE says, beside the running program, and where bumper is installed.
+  /// Reads the file in a child process, so that nothing a broken or hostile file does to the reader
+  /// affects the caller: for untrusted files. Any format that assimp supports. The child process
+  /// runs the program bumper-read-scene: the one that the environment variable BUMPER_READ_SCENE
+  /// names, or else the one beside the running program or where bumper is installed.
   ///
-  /// Without it, the formats whose readers stand broken files are read: OBJ, glTF 2 and GLB, STL,
-  /// FBX, 3DS; and AC3D, whose reader does not: a broken AC3D file ends the process.
+  /// Without it, the formats whose readers withstand broken files are read: OBJ, glTF 2 and GLB,
+  /// STL, FBX, 3DS; and AC3D, whose reader does not: a broken AC3D file ends the process.
   bool isolate = false;
 
-  double timeout = 10.0;                               ///< s, > 0; of a reading in isolation
+  double timeout = 10.0;                               ///< s, > 0; for reading in isolation
   std::size_t memoryLimit = std::size_t{2048} << 20U;  ///< bytes, from 64 MiB; likewise
 
-  /// Is told how loading goes on: the stage and what is done of it, in [0, 1], never less than
-  /// before. Called from the thread that calls loadScene(), at the begin and end of each stage and,
-  /// as often as the format's reader says something, in between; in isolation every 0.1 s while the
-  /// file is read, and without saying how much is done. Must not throw.
+  /// Reports progress: the stage and the share of it that is done, in [0, 1], which does
+  /// not decrease within a stage. Called in the thread that calls loadScene(), at the beginning and
+  /// end of each stage and whenever the format's reader reports progress; in isolation every 0.1 s
+  /// while the file is read, with a share of 0. Must not throw.
   std::function<void(LoadStage stage, double share)> progress{};
 };
 
@@ -65,14 +65,15 @@ struct LoadReport {
 /// degenerate and duplicate triangles dropped. Mesh names are those of the file's nodes.
 ///
 /// Throws Error, naming the file, if it cannot be read, holds no triangle, has an index out of
-/// range or a coordinate that is not finite (with the mesh's name), does not say which axis is up
-/// while `options` does not either (with extents and number of walls for y and for z up), or, in
-/// isolation, makes the reader crash, take too long or need too much memory.
+/// range or a coordinate that is not finite (with the mesh's name), does not state which axis is up
+/// while `options` does not either (with extents and, for y and for z up, how many triangles are
+/// walls by their slope), or, in isolation, makes the reader crash, take too long or need too much
+/// memory.
 Scene loadScene(const std::filesystem::path& file, const LoadOptions& options = {},
                 LoadReport* report = nullptr);
 
 /// Writes a scene as .obj (with its .mtl beside), .stl or .ply (binary), or .glb, by the file's
-/// ending; single precision. OBJ, STL and PLY are written z-up and do not say so: load them with
+/// ending; single precision. OBJ, STL and PLY are written z-up but cannot state it: load them with
 /// `up = UpAxis::z`. GLB is y-up, as its standard demands. Names, materials and colours are kept by
 /// OBJ and GLB. Throws Error, naming the file, on an invalid scene, another ending, or a file that
 /// cannot be written.

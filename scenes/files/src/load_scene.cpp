@@ -50,24 +50,28 @@ void turn(Scene& scene, UpAxis up, double scale) {
   for (Eigen::Vector3d& vertex : scene.vertices) vertex = scale * turned(vertex, up);
 }
 
+/// How many triangles are steep enough for a wall if an axis of the file points up.
+std::size_t countSteep(const Scene& scene, UpAxis up) {
+  const double limit = WallSelection{}.maxNormalUp;
+  return static_cast<std::size_t>(std::count_if(
+      scene.triangles.begin(), scene.triangles.end(), [&](const Scene::Triangle& triangle) {
+        const Eigen::Vector3d& a = scene.corner(triangle, 0);
+        const Eigen::Vector3d normal =
+            (scene.corner(triangle, 1) - a).cross(scene.corner(triangle, 2) - a);
+        return normal.norm() > 0.0 && std::abs(turned(normal, up).z()) <= limit * normal.norm();
+      }));
+}
+
 [[noreturn]] void failWithoutUp(const std::filesystem::path& file, const FileScene& read) {
-  Eigen::Vector3d low = read.scene.vertices.front();
-  Eigen::Vector3d high = low;
-  for (const Eigen::Vector3d& vertex : read.scene.vertices) {
-    low = low.cwiseMin(vertex);
-    high = high.cwiseMax(vertex);
-  }
-  const Eigen::Vector3d extents = high - low;
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& vertex : read.scene.vertices) box.extend(vertex);
+  const Eigen::Vector3d extents = box.sizes();
   std::ostringstream what;
   what << "does not state which axis is up (format: " << read.format
        << "): set LoadOptions::up. It extends " << extents.x() << " x " << extents.y() << " x "
-       << extents.z() << " (x, y, z); of " << read.scene.triangles.size() << " triangles, ";
-  for (const UpAxis up : {UpAxis::y, UpAxis::z}) {
-    Scene scene = read.scene;
-    turn(scene, up, read.metresPerUnit);
-    what << selectWalls(scene).report.walls
-         << (up == UpAxis::y ? " are walls with y up, " : " with z up");
-  }
+       << extents.z() << " (x, y, z); of " << read.scene.triangles.size()
+       << " triangles, by their slope, " << countSteep(read.scene, UpAxis::y)
+       << " are walls with y up, " << countSteep(read.scene, UpAxis::z) << " with z up";
   throw fileError(file, what.str());
 }
 
@@ -99,7 +103,7 @@ void dropDegenerate(Scene& scene, LoadReport& report) {
 }
 
 void dropDuplicates(Scene& scene, LoadReport& report) {
-  CornersTable seen(scene.triangles.size());
+  TriangleTable seen(scene.triangles.size());
   report.droppedDuplicate = std::erase_if(scene.triangles, [&](const Scene::Triangle& triangle) {
     return !seen.insert(sorted(triangle.corners));
   });

@@ -1,5 +1,5 @@
-// bumper-read-scene: reads a scene file for another program and writes plain arrays to standard
-// output. Whatever the file does to the reader, only this process is harmed.
+// bumper-read-scene: the child process of loadScene() that reads an untrusted file and writes plain
+// arrays to standard output. Whatever the file does to the reader, only this process is harmed.
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -32,7 +32,7 @@ void limitResources(const char* memory, const char* seconds) {
   static_cast<void>(memory);
 #endif
   alarm(static_cast<unsigned>(std::strtoul(seconds, nullptr, 10)));
-  // If nobody listens any more, write() says so.
+  // With the parent gone, write() fails.
   static_cast<void>(std::signal(SIGPIPE, SIG_IGN));
 }
 

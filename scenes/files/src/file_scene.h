@@ -21,7 +21,7 @@ struct FileScene {
   std::size_t emptyMeshes = 0;
 };
 
-/// Says nothing if nobody listens.
+/// Reports loading; never empty.
 using Progress = std::function<void(LoadStage stage, double share)>;
 
 inline Error fileError(const std::filesystem::path& file, const std::string& what) {

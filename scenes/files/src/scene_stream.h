@@ -9,7 +9,7 @@
 
 namespace bumper {
 
-/// What the reading program hands back: what it read, or in words why it could not.
+/// What the child process returns: what it read, or the text of an error.
 using ReadResult = std::variant<FileScene, std::string>;
 
 /// As bytes for a pipe between two programs of one machine.
