@@ -14,6 +14,7 @@
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/scenes/paper_scenes.h"
 #include "bumper/scenes/scene_files.h"
+#include "impact_table.h"
 #include "results.h"
 
 namespace {

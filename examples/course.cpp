@@ -13,6 +13,7 @@
 
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/scenes/paper_scenes.h"
+#include "impact_table.h"
 #include "path_follower.h"
 #include "results.h"
 

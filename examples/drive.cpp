@@ -23,6 +23,7 @@
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/response/error.h"
 #include "bumper/scenes/scene_files.h"
+#include "impact_table.h"
 #include "ray_suspension.h"
 #include "results.h"
 #include "tool.h"

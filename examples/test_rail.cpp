@@ -13,6 +13,7 @@
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/response/error.h"
 #include "bumper/scenes/paper_scenes.h"
+#include "impact_table.h"
 #include "plots.h"
 #include "results.h"
 #include "test_rail_run.h"

@@ -18,8 +18,8 @@
 #include "bumper/render/replay.h"
 #include "bumper/render/snapshot.h"
 #include "bumper/response/error.h"
+#include "impact_table.h"
 #include "recorded_run.h"
-#include "results.h"
 #include "tool.h"
 #include "vehicle_mesh_files.h"
 
