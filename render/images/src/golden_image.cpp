@@ -5,7 +5,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "bumper/response/error.h"
+#include "bumper/base/output_file.h"
 
 namespace bumper {
 
@@ -14,13 +14,6 @@ namespace {
 bool isUpdateAsked() {
   const char* value = std::getenv("BUMPER_UPDATE_GOLDEN");
   return value != nullptr && *value != '\0' && std::string_view(value) != "0";
-}
-
-void makeFolder(const std::filesystem::path& folder) {
-  if (folder.empty()) return;
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure) throw Error("cannot make the folder " + folder.string() + ": " + failure.message());
 }
 
 std::string sizeOf(const Image& image) {

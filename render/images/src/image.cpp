@@ -6,8 +6,8 @@
 #include <array>
 #include <fstream>
 #include <string>
-#include <system_error>
 
+#include "bumper/base/output_file.h"
 #include "bumper/response/error.h"
 
 namespace bumper {
@@ -59,27 +59,20 @@ Image::Image(int width, int height, Rgb fill) : width_(width), height_(height) {
 }
 
 void writePng(const Image& image, const std::filesystem::path& file) {
-  PngImage output;
-  output.png.width = static_cast<png_uint_32>(image.width());
-  output.png.height = static_cast<png_uint_32>(image.height());
-  output.png.format = PNG_FORMAT_RGB;
+  PngImage encoder;
+  encoder.png.width = static_cast<png_uint_32>(image.width());
+  encoder.png.height = static_cast<png_uint_32>(image.height());
+  encoder.png.format = PNG_FORMAT_RGB;
 
-  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(output.png);
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(encoder.png);
   std::vector<char> bytes(size);
-  if (png_image_write_to_memory(&output.png, bytes.data(), &size, 0, image.pixels().data(), 0,
+  if (png_image_write_to_memory(&encoder.png, bytes.data(), &size, 0, image.pixels().data(), 0,
                                 nullptr) == 0)
-    throw Error("cannot write " + file.string() + ": " + output.png.message);
+    throw Error("cannot write " + file.string() + ": " + encoder.png.message);
 
-  const std::filesystem::path beside = file.string() + ".part";
-  std::ofstream stream(beside, std::ios::binary | std::ios::trunc);
-  stream.write(bytes.data(), static_cast<std::streamsize>(size));
-  stream.close();
-  std::error_code failure;
-  if (!stream.fail()) std::filesystem::rename(beside, file, failure);
-  if (stream.fail() || failure) {
-    std::filesystem::remove(beside, failure);
-    throw Error("cannot write " + file.string() + ": the folder must be writable and have room");
-  }
+  OutputFile output(file);
+  output.write({{bytes.data(), size}});
+  output.moveToPlace();
 }
 
 Image readPng(const std::filesystem::path& file) {

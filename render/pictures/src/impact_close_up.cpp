@@ -14,22 +14,25 @@
 #include "bumper/response/contact_point.h"
 #include "bumper/response/error.h"
 #include "bumper/scenes/walls.h"
+#include "ink.h"
 #include "offscreen_context.h"
 #include "pen.h"
 #include "rasteriser.h"
-#include "scribe.h"
+#include "snapshot_input.h"
 #include "text.h"
+#include "text_renderer.h"
 
 namespace bumper {
 
 namespace {
 
 using drawing::Colour;
+using drawing::ink;
+using drawing::mark;
 using drawing::Pen;
 using Eigen::Vector2d;
 using Box = Eigen::AlignedBox2d;
 
-const Colour ink(0.09F, 0.10F, 0.14F, 1.0F);
 const Colour softInk(0.36F, 0.38F, 0.42F, 1.0F);
 const Colour ground(0.955F, 0.955F, 0.945F, 1.0F);
 const Colour paper(1.0F, 1.0F, 1.0F, 1.0F);
@@ -38,7 +41,6 @@ const Colour bodyColour(0.90F, 0.36F, 0.34F, 0.28F);
 const Colour outlineColour(0.74F, 0.10F, 0.10F, 1.0F);
 const Colour normalColour(0.05F, 0.40F, 0.72F, 1.0F);
 const Colour armColour(0.42F, 0.20F, 0.62F, 1.0F);
-const Colour mark(0.87F, 0.00F, 0.47F, 1.0F);
 const Colour beforeColour(0.93F, 0.53F, 0.03F, 1.0F);
 const Colour afterColour(0.02F, 0.52F, 0.32F, 1.0F);
 
@@ -303,7 +305,8 @@ void addWalls(const Plan& plan, const Situation& s) {
   for (const auto& [from, to] : surfaceOf(s)) {
     const Vector2d begin = s.contact + from * s.tangent;
     const Vector2d end = s.contact + to * s.tangent;
-    plan.fill({begin, end, end + back, begin + back}, Colour(0.55F, 0.42F, 0.30F, 0.22F));
+    plan.fill({begin, end, end + back, begin + back},
+              Colour(wallColour.x(), wallColour.y(), wallColour.z(), 0.22F));
   }
   for (const auto& [from, to] : s.walls) plan.line(from, to, 1.6, wallColour);
 }
@@ -414,12 +417,6 @@ std::vector<Row> rowsOf(const Situation& s) {
           {"regime", std::string(toString(e.regime))}};
 }
 
-void requireSize(int value, int low, const char* name) {
-  if (value >= low && value <= 8192) return;
-  throw Error(std::string("CloseUpOptions::") + name + " is " + std::to_string(value) +
-              " pixels: it must lie in " + std::to_string(low) + " to 8192");
-}
-
 void paint(const Situation& s, std::size_t number, const CloseUpOptions& options, Pen& pen) {
   const double unit = std::max(0.8, options.height / 360.0);
   const double margin = 8.0 * unit;
@@ -492,8 +489,8 @@ void paint(const Situation& s, std::size_t number, const CloseUpOptions& options
 
 Image impactCloseUp(const Scene& scene, const Recording& recording, std::size_t impact,
                     const CloseUpOptions& options, OffscreenBackend backend) {
-  requireSize(options.width, 640, "width");
-  requireSize(options.height, 360, "height");
+  drawing::checkPixels(options.width, 640, "CloseUpOptions::width");
+  drawing::checkPixels(options.height, 360, "CloseUpOptions::height");
   const Situation situation = situationOf(scene, recording, impact);
   drawing::Picture picture;
   picture.width = options.width;
@@ -504,7 +501,7 @@ Image impactCloseUp(const Scene& scene, const Recording& recording, std::size_t 
   const auto context = drawing::makeOffscreenContext(backend);
   const drawing::ContextInUse use(*context);
   Image image = drawing::Rasteriser(*context, {}).draw(picture);
-  drawing::Scribe().write(picture.writings, image);
+  drawing::TextRenderer().write(picture.textLines, image);
   return image;
 }
 

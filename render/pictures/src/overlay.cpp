@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "ink.h"
 #include "pen.h"
 #include "speed_colours.h"
 #include "text.h"
@@ -23,14 +24,10 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Box = Eigen::AlignedBox2d;
 
-const Colour ink(0.09F, 0.10F, 0.14F, 1.0F);
 const Colour softInk(0.09F, 0.10F, 0.14F, 0.72F);
 const Colour paper(1.0F, 1.0F, 1.0F, 0.86F);
 const Colour white(1.0F, 1.0F, 1.0F, 1.0F);
-const Colour mark(0.87F, 0.00F, 0.47F, 1.0F);
 
-/// m/s: the hardest impact has an arrow of full length if its Δv is at least this.
-constexpr double fullArrowDeltaV = 5.0;
 constexpr double fullArrow = 34.0;  ///< in the small text's units
 
 constexpr const char* markLegend = "arrow: push of the wall · Δv: change of velocity";

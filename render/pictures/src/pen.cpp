@@ -32,11 +32,11 @@ void Pen::box(const Box& area, const Colour& left, const Colour& right) {
 }
 
 void Pen::panel(const Box& area, double radius, const Colour& colour) {
-  for (Writing& writing : picture_.writings) {
-    const double width = textWidth(writing.line) * writing.size / emHeight;
-    const Box written(Vector2d(writing.start.x(), writing.start.y() - writing.size),
-                      Vector2d(writing.start.x() + width, writing.start.y() + writing.size));
-    if (written.intersects(area)) writing.covered.push_back(area);
+  for (TextLine& line : picture_.textLines) {
+    const double width = textWidth(line.text) * line.size / emHeight;
+    const Box written(Vector2d(line.start.x(), line.start.y() - line.size),
+                      Vector2d(line.start.x() + width, line.start.y() + line.size));
+    if (written.intersects(area)) line.covered.push_back(area);
   }
   rounded(area, radius, colour);
 }
@@ -105,11 +105,11 @@ void Pen::arrow(const Vector2d& from, const Vector2d& to, double width, const Co
 }
 
 void Pen::text(const Vector2d& place, const std::string& line, double scale, const Colour& colour) {
-  picture_.writings.push_back({line,
-                               Vector2d(place.x(), std::round(place.y() + scale * capitalHeight)),
-                               scale * emHeight,
-                               colour,
-                               {}});
+  picture_.textLines.push_back({line,
+                                Vector2d(place.x(), std::round(place.y() + scale * capitalHeight)),
+                                scale * emHeight,
+                                colour,
+                                {}});
 }
 
 void Pen::add(const Vector2d& point, const Colour& colour) {

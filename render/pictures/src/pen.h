@@ -19,7 +19,7 @@ class Pen {
                 const Colour& colour);
   /// From the left colour to the right one.
   void box(const Box& area, const Colour& left, const Colour& right);
-  /// A box with rounded corners that hides all writing below.
+  /// A box with rounded corners that hides all text below.
   void panel(const Box& area, double radius, const Colour& colour);
   void disc(const Eigen::Vector2d& centre, double radius, const Colour& colour);
   void line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width,

@@ -68,9 +68,9 @@ struct DrawnBody {
   float opacity = 1.0F;  ///< less than 1: of several, only the nearest shows
 };
 
-/// Letters, over everything that was added before.
-struct Writing {
-  std::string line;
+/// A line of text, over everything that was added before.
+struct TextLine {
+  std::string text;
   Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< pixels: left end of the baseline
   double size = 0.0;                                ///< pixels, em
   Colour colour;
@@ -105,7 +105,7 @@ struct Picture {
   Triangles ribbons;                   ///< on the ground, hidden by what stands on it
   Triangles markers;                   ///< hidden by what is nearer
   Triangles overlay;                   ///< in front of everything
-  std::vector<Writing> writings;
+  std::vector<TextLine> textLines;
 };
 
 }  // namespace bumper::drawing

@@ -17,7 +17,7 @@ class Rasteriser {
   /// Hands the scene to the driver. Throws Error if the driver fails.
   Rasteriser(const OffscreenContext& context, const SceneModel& scene);
 
-  /// All of a picture but its writings, with four samples per pixel. Throws Error if the driver
+  /// All of a picture but its text, with four samples per pixel. Throws Error if the driver
   /// fails or the size lies beyond its limits.
   Image draw(const Picture& picture);
 

@@ -12,9 +12,6 @@ namespace bumper::drawing {
 namespace {
 
 constexpr std::size_t maxLabelled = 8;
-/// Impacts below this share of the hardest's Δv are weak.
-constexpr double weakShare = 0.1;
-
 /// Ghosts closer than this many vehicle lengths hide each other …
 constexpr double crowded = 0.85;
 /// … and closer than this they look like one.

@@ -39,8 +39,14 @@ constexpr double reachOfImpact = 15.0;
 /// … or, without impacts, before the end.
 constexpr double reachOfEnd = 30.0;
 
-/// What the options ask for. Throws Error if at one of their instants no vehicle was recorded, or
-/// their moment lies outside what is drawn.
+/// Impacts below this share of the hardest's Δv are weak: they have no label and do not slow a
+/// replay.
+constexpr double weakShare = 0.1;
+/// m/s: the hardest impact has an arrow of full length if its Δv is at least this.
+constexpr double fullArrowDeltaV = 5.0;
+
+/// The part that the options select. Throws Error if at one of their instants no vehicle was
+/// recorded, or their moment lies outside what is drawn.
 RunExcerpt excerptOf(const Recording& recording, const SnapshotOptions& options);
 
 /// The hardest of the impacts, shown or yet to come; null without impacts.

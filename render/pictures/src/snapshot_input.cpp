@@ -7,16 +7,12 @@
 
 namespace bumper::drawing {
 
-namespace {
-
-void requireSize(int value, int low, const char* name) {
+void checkPixels(int value, int low, const char* name) {
   constexpr int most = 8192;
   if (value >= low && value <= most) return;
-  throw Error(std::string("SnapshotOptions::") + name + " is " + std::to_string(value) +
-              " pixels: it must lie in " + std::to_string(low) + " to " + std::to_string(most));
+  throw Error(std::string(name) + " is " + std::to_string(value) + " pixels: it must lie in " +
+              std::to_string(low) + " to " + std::to_string(most));
 }
-
-}  // namespace
 
 void checkVehicleMeshes(const Recording& recording, const VehicleMeshes& meshes,
                         const std::string& where) {
@@ -38,8 +34,8 @@ void checkVehicleMeshes(const Recording& recording, const VehicleMeshes& meshes,
 }
 
 void checkOptions(const Recording& recording, const SnapshotOptions& options) {
-  requireSize(options.width, 160, "width");
-  requireSize(options.height, 120, "height");
+  checkPixels(options.width, 160, "SnapshotOptions::width");
+  checkPixels(options.height, 120, "SnapshotOptions::height");
   checkVehicleMeshes(recording, options.vehicleMeshes, "SnapshotOptions");
 }
 

@@ -7,6 +7,10 @@
 
 namespace bumper::drawing {
 
+/// Throws Error unless a picture's width or height, which `name` says, lies in `low` to 8192
+/// pixels.
+void checkPixels(int value, int low, const char* name);
+
 /// Throws Error, beginning with `where`, if a mesh is invalid or of no vehicle.
 void checkVehicleMeshes(const Recording& recording, const VehicleMeshes& meshes,
                         const std::string& where);

@@ -10,9 +10,9 @@
 #include "rasteriser.h"
 #include "run_excerpt.h"
 #include "scene_model.h"
-#include "scribe.h"
 #include "sight_lines.h"
 #include "snapshot_input.h"
+#include "text_renderer.h"
 #include "world_painter.h"
 
 namespace bumper {
@@ -29,7 +29,7 @@ class SnapshotRenderer::Parts {
   drawing::SightLines sight;
   std::unique_ptr<drawing::OffscreenContext> context;
   std::optional<drawing::Rasteriser> rasteriser;
-  drawing::Scribe scribe;
+  drawing::TextRenderer textRenderer;
 };
 
 SnapshotRenderer::SnapshotRenderer(const Scene& scene, OffscreenBackend backend) {
@@ -59,7 +59,7 @@ Image SnapshotRenderer::draw(const Recording& recording, const SnapshotOptions& 
                       picture);
   const drawing::ContextInUse use(*parts_->context);
   Image image = parts_->rasteriser->draw(picture);
-  parts_->scribe.write(picture.writings, image);
+  parts_->textRenderer.write(picture.textLines, image);
   return image;
 }
 

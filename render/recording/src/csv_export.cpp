@@ -3,12 +3,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <string>
 #include <string_view>
 #include <system_error>
 
+#include "bumper/base/output_file.h"
 #include "bumper/response/error.h"
 
 namespace bumper {
@@ -113,42 +113,6 @@ std::string trajectoryText(const RecordedVehicle& vehicle) {
   return text;
 }
 
-/// A file that is written beside its place and moved there when it is whole.
-class PendingFile {
- public:
-  PendingFile(std::filesystem::path place, std::string_view text)
-      : place_(std::move(place)), beside_(place_.string() + ".part") {
-    std::ofstream file(beside_, std::ios::binary | std::ios::trunc);
-    file.write(text.data(), static_cast<std::streamsize>(text.size()));
-    file.close();
-    if (file.fail()) {
-      discard();
-      throw Error("cannot write " + place_.string() +
-                  ": the folder must be writable and have room");
-    }
-  }
-  PendingFile(const PendingFile&) = delete;
-  PendingFile& operator=(const PendingFile&) = delete;
-  PendingFile(PendingFile&&) = delete;
-  PendingFile& operator=(PendingFile&&) = delete;
-  ~PendingFile() { discard(); }
-
-  void moveToPlace() {
-    std::error_code failure;
-    std::filesystem::rename(beside_, place_, failure);
-    if (failure) throw Error("cannot replace " + place_.string() + ": " + failure.message());
-  }
-
- private:
-  void discard() noexcept {
-    std::error_code absent;
-    std::filesystem::remove(beside_, absent);
-  }
-
-  std::filesystem::path place_;
-  std::filesystem::path beside_;
-};
-
 }  // namespace
 
 void writeCsv(const Recording& recording, const std::filesystem::path& folder,
@@ -163,10 +127,11 @@ void writeCsv(const Recording& recording, const std::filesystem::path& folder,
   if (failure || !std::filesystem::is_directory(folder, failure))
     throw Error("cannot write into " + folder.string() + ": it is not a folder that can be made");
 
-  PendingFile events(folder / "events.csv", eventsText(recording));
-  PendingFile trajectory(folder / "trajectory.csv", vehicles.empty()
-                                                        ? std::string(trajectoryHeader)
-                                                        : trajectoryText(vehicles[vehicle]));
+  OutputFile events(folder / "events.csv");
+  OutputFile trajectory(folder / "trajectory.csv");
+  events.write({eventsText(recording)});
+  trajectory.write(
+      {vehicles.empty() ? std::string(trajectoryHeader) : trajectoryText(vehicles[vehicle])});
   events.moveToPlace();
   trajectory.moveToPlace();
 }

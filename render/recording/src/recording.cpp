@@ -44,12 +44,7 @@ std::optional<RecordedPose> poseAt(const RecordedVehicle& vehicle, double time) 
 
 std::size_t Recording::addVehicle(std::string name, const VehicleParameters& parameters,
                                   RunParameters settings) {
-  validate(parameters);
-  checkName(name, vehicles_);
-  vehicles_.push_back({.name = std::move(name),
-                       .parameters = parameters,
-                       .settings = std::move(settings),
-                       .poses = {}});
+  vehicles_.push_back(checkedVehicle(std::move(name), parameters, std::move(settings), vehicles_));
   lastImpacts_.emplace_back();
   return vehicles_.size() - 1;
 }

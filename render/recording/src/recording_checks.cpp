@@ -45,9 +45,15 @@ struct Owner {
 
 }  // namespace
 
-void checkName(const std::string& name, std::span<const RecordedVehicle> vehicles) {
-  if (std::ranges::find(vehicles, name, &RecordedVehicle::name) != vehicles.end())
+RecordedVehicle checkedVehicle(std::string name, const VehicleParameters& parameters,
+                               RunParameters settings, std::span<const RecordedVehicle> others) {
+  validate(parameters);
+  if (std::ranges::find(others, name, &RecordedVehicle::name) != others.end())
     throw Error("Recording: the vehicle name \"" + name + "\" is taken; each must be its own");
+  return {.name = std::move(name),
+          .parameters = parameters,
+          .settings = std::move(settings),
+          .poses = {}};
 }
 
 void checkIndex(std::size_t vehicle, std::size_t count) {

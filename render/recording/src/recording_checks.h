@@ -8,10 +8,12 @@
 
 namespace bumper {
 
-// What a recording demands, in memory and in a file. Each throws Error.
+// What a recording requires, in memory and in a file. Each throws Error.
 
-/// Throws if the name is taken by one of the vehicles.
-void checkName(const std::string& name, std::span<const RecordedVehicle> vehicles);
+/// Returns the vehicle as it is kept, without poses. Throws if the name is taken by one of the
+/// others, or a parameter is not finite and positive.
+RecordedVehicle checkedVehicle(std::string name, const VehicleParameters& parameters,
+                               RunParameters settings, std::span<const RecordedVehicle> others);
 
 /// Throws unless there is a vehicle of that index.
 void checkIndex(std::size_t vehicle, std::size_t count);

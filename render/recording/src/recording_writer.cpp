@@ -4,8 +4,8 @@
 #include <cmath>
 #include <exception>
 #include <limits>
-#include <system_error>
 
+#include "bumper/base/output_file.h"
 #include "bumper/response/error.h"
 #include "recording_checks.h"
 #include "recording_lines.h"
@@ -76,7 +76,7 @@ RecordingWriter::~RecordingWriter() {
   try {
     if (!failed_) close();
   } catch (const std::exception&) {
-    failed_ = true;  // close() tells who wants to know
+    failed_ = true;  // close() reports it
   }
 }
 
@@ -88,13 +88,9 @@ std::size_t RecordingWriter::addVehicle(std::string name, const VehicleParameter
       throw Error("the vehicle \"" + name +
                   "\" comes too late: all must be added before the first pose or impact");
     }
-    validate(parameters);
     requireUtf8(name);
-    checkName(name, vehicles_);
-    vehicles_.push_back({.name = std::move(name),
-                         .parameters = parameters,
-                         .settings = std::move(settings),
-                         .poses = {}});
+    vehicles_.push_back(
+        checkedVehicle(std::move(name), parameters, std::move(settings), vehicles_));
     last_.emplace_back();
     return vehicles_.size() - 1;
   });
@@ -209,22 +205,14 @@ void RecordingWriter::handOver() {
 
 void writeRecording(const Recording& recording, const std::filesystem::path& file,
                     const RunDescription& run) {
-  const std::filesystem::path beside = file.string() + ".part";
-  try {
-    RecordingWriter writer(beside, run);
-    for (const RecordedVehicle& vehicle : recording.vehicles()) {
-      writer.addVehicle(vehicle.name, vehicle.parameters, vehicle.settings);
-    }
-    addInOrder(recording, writer);
-    writer.close();
-    std::error_code failure;
-    std::filesystem::rename(beside, file, failure);
-    if (failure) throw Error("cannot replace " + file.string() + ": " + failure.message());
-  } catch (...) {
-    std::error_code absent;
-    std::filesystem::remove(beside, absent);
-    throw;
+  OutputFile output(file);
+  RecordingWriter writer(output.beside(), run);
+  for (const RecordedVehicle& vehicle : recording.vehicles()) {
+    writer.addVehicle(vehicle.name, vehicle.parameters, vehicle.settings);
   }
+  addInOrder(recording, writer);
+  writer.close();
+  output.moveToPlace();
 }
 
 }  // namespace bumper

@@ -13,6 +13,7 @@
 #include "camera.h"
 #include "sight_lines.h"
 #include "text.h"
+#include "text_renderer.h"
 
 namespace bumper {
 
@@ -109,23 +110,14 @@ void write(Image& sheet, const std::string& line, int left, int baseline, Rgb co
   for (const char32_t letter : drawing::lettersOf(line)) {
     const int column = static_cast<int>(std::floor(pen));
     const drawing::Glyph glyph = drawing::glyphOf(letter, letterSize, pen - column);
-    for (int y = 0; y < glyph.height; ++y) {
-      for (int x = 0; x < glyph.width; ++x) {
-        const int toX = column + glyph.left + x;
-        const int toY = baseline + glyph.top + y;
-        if (toX < 0 || toX >= sheet.width() || toY < 0 || toY >= sheet.height()) continue;
-        const int share =
-            glyph.coverage[static_cast<std::size_t>(y) * static_cast<std::size_t>(glyph.width) +
-                           static_cast<std::size_t>(x)];
-        const auto mix = [&](std::uint8_t& below, std::uint8_t above) {
-          below = static_cast<std::uint8_t>((below * (255 - share) + above * share) / 255);
-        };
-        Rgb& pixel = sheet.at(toX, toY);
-        mix(pixel.red, colour.red);
-        mix(pixel.green, colour.green);
-        mix(pixel.blue, colour.blue);
-      }
-    }
+    drawing::blendGlyph(glyph, column, baseline, sheet, [&](Rgb& pixel, int share, int, int) {
+      const auto mix = [&](std::uint8_t& below, std::uint8_t above) {
+        below = static_cast<std::uint8_t>((below * (255 - share) + above * share) / 255);
+      };
+      mix(pixel.red, colour.red);
+      mix(pixel.green, colour.green);
+      mix(pixel.blue, colour.blue);
+    });
     pen += drawing::advanceOf(letter) * letterSize / drawing::emHeight;
   }
 }

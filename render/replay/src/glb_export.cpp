@@ -34,8 +34,6 @@ using Json = nlohmann::json;
 
 const Vector3f mark(0.93F, 0.10F, 0.36F);
 constexpr double fullArrow = 6.0;       ///< m
-constexpr double fullArrowSpeed = 5.0;  ///< m/s, or the hardest impact's Δv if that is more
-constexpr double weakShare = 0.1;       ///< of the hardest impact's Δv
 constexpr double pathHalfWidth = 0.12;  ///< m
 constexpr double pathLift = 0.04;       ///< m above the ground
 constexpr float flash = 0.15F;          ///< s for which a mark that appears is larger than after
@@ -254,11 +252,11 @@ class GlbExport {
   void addImpacts() {
     const drawing::DrawnImpact* worst = drawing::hardest(run_);
     if (worst == nullptr) return;
-    const double full = std::max(worst->event.deltaV, fullArrowSpeed);
+    const double full = std::max(worst->event.deltaV, drawing::fullArrowDeltaV);
     const std::size_t looks = file_.addMaterial("impact", mark);
     for (const drawing::DrawnImpact& impact : run_.impacts) {
       const ImpactEvent& event = impact.event;
-      const bool weak = event.deltaV < weakShare * worst->event.deltaV;
+      const bool weak = event.deltaV < drawing::weakShare * worst->event.deltaV;
       std::array<char, 64> label{};
       std::snprintf(label.data(), label.size(), "impact %zu, %.1f m/s", impact.number,
                     event.deltaV);

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <fstream>
+#include <initializer_list>
 #include <limits>
-#include <system_error>
 
+#include "bumper/base/output_file.h"
 #include "bumper/response/error.h"
 
 namespace bumper::drawing {
@@ -19,7 +19,7 @@ static_assert(std::endian::native == std::endian::little, "a GLB file is little-
 static_assert(sizeof(Eigen::Vector3f) == 12 && sizeof(Eigen::Quaternionf) == 16,
               "written as they lie in memory");
 
-// The numbers that the standard gives to these things.
+// Constants of the standard.
 constexpr int unsignedByte = 5121;
 constexpr int unsignedInt = 5125;
 constexpr int singleFloat = 5126;
@@ -37,11 +37,11 @@ float linear(float value) {
   return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
 }
 
-void put(std::ostream& stream, std::uint32_t value) {
-  stream.write(reinterpret_cast<const char*>(&value), sizeof(value));
+std::string bytesOf(std::initializer_list<std::uint32_t> values) {
+  return {reinterpret_cast<const char*>(values.begin()), values.size() * sizeof(std::uint32_t)};
 }
 
-/// The extent of a list, which the standard wants beside it.
+/// The extent of a list, which the standard requires beside it.
 template <typename Vector>
 std::pair<Vector, Vector> extentOf(std::span<const Vector> values) {
   Vector low = values.front();
@@ -184,25 +184,14 @@ void GltfFile::write(const std::filesystem::path& file) const {
                 " bytes, a GLB file at most 4294967295; leave out keys or scene");
   }
 
-  const std::filesystem::path beside = file.string() + ".part";
-  std::ofstream stream(beside, std::ios::binary | std::ios::trunc);
-  put(stream, magic);
-  put(stream, version);
-  put(stream, static_cast<std::uint32_t>(total));
-  put(stream, static_cast<std::uint32_t>(text.size()));
-  put(stream, jsonChunk);
-  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-  put(stream, static_cast<std::uint32_t>(binary_.size()));
-  put(stream, binaryChunk);
-  stream.write(reinterpret_cast<const char*>(binary_.data()),
-               static_cast<std::streamsize>(binary_.size()));
-  stream.close();
-  std::error_code failure;
-  if (!stream.fail()) std::filesystem::rename(beside, file, failure);
-  if (stream.fail() || failure) {
-    std::filesystem::remove(beside, failure);
-    throw Error("cannot write " + file.string() + ": the folder must be writable and have room");
-  }
+  const auto length = [](const auto& part) { return static_cast<std::uint32_t>(part.size()); };
+  OutputFile output(file);
+  output.write({bytesOf({magic, version, static_cast<std::uint32_t>(total)}),
+                bytesOf({length(text), jsonChunk}),
+                text,
+                bytesOf({length(binary_), binaryChunk}),
+                {reinterpret_cast<const char*>(binary_.data()), binary_.size()}});
+  output.moveToPlace();
 }
 
 }  // namespace bumper::drawing

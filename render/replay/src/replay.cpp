@@ -9,17 +9,16 @@
 #include <limits>
 #include <sstream>
 #include <string>
-#include <system_error>
 
+#include "bumper/base/output_file.h"
 #include "bumper/render/snapshot_renderer.h"
 #include "bumper/render/video.h"
 #include "bumper/response/error.h"
+#include "run_excerpt.h"
 
 namespace bumper {
 
 namespace {
-
-constexpr double weakShare = 0.1;  ///< of the hardest impact's Δv: does not slow the replay
 
 void require(double value, double low, double high, const char* name) {
   if (value >= low && value <= high) return;
@@ -59,7 +58,7 @@ std::vector<double> slowingImpacts(const Recording& recording) {
     hardest = std::max(hardest, impact.event().deltaV);
   std::vector<double> times;
   for (const RecordedImpact& impact : recording.impacts()) {
-    if (impact.event().deltaV >= weakShare * hardest) times.push_back(impact.event().time);
+    if (impact.event().deltaV >= drawing::weakShare * hardest) times.push_back(impact.event().time);
   }
   std::ranges::sort(times);
   return times;
@@ -146,9 +145,7 @@ void writeReplayFrames(const Scene& scene, const Recording& recording,
                        const std::filesystem::path& folder, const ReplayOptions& options,
                        const ReplayProgress& progress) {
   const std::size_t all = replayTimes(recording, options.timing).size();
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure) throw Error("cannot make the folder " + folder.string() + ": " + failure.message());
+  makeFolder(folder);
   const auto writeFrame = [&](const Image& frame, std::size_t index) {
     std::array<char, 40> name{};
     std::snprintf(name.data(), name.size(), "frame_%05zu.png", index + 1);

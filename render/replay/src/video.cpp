@@ -1,15 +1,15 @@
 #include "bumper/render/video.h"
 
 #include <cstdlib>
-#include <fstream>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include "bumper/base/child_process.h"
+#include "bumper/base/output_file.h"
 #include "bumper/response/error.h"
-#include "fed_program.h"
 
 namespace bumper {
 
@@ -74,16 +74,14 @@ std::string textOf(double number) {
 class VideoWriter::Implementation {
  public:
   Implementation(const std::filesystem::path& file, int width, int height, double framesPerSecond)
-      : file_(file), beside_(file.string() + ".part"), width_(width), height_(height) {
+      : file_(file), output_(file), width_(width), height_(height) {
     const Kind kind = kindOf(file);
     if (!(framesPerSecond >= 1.0 && framesPerSecond <= kind.fastest)) {
       throw Error("cannot write " + file.string() + " with " + textOf(framesPerSecond) +
                   " frames per second: they must lie in 1 to " + textOf(kind.fastest));
     }
     // Tried here, so that a folder that is missing is not ffmpeg's to explain.
-    if (!std::ofstream(beside_, std::ios::binary | std::ios::trunc)) {
-      throw Error("cannot write " + file.string() + ": the folder must be writable and have room");
-    }
+    output_.write({});
     std::vector<std::string> arguments{"-loglevel",
                                        "error",
                                        "-y",
@@ -98,26 +96,17 @@ class VideoWriter::Implementation {
                                        "-i",
                                        "pipe:0"};
     arguments.insert(arguments.end(), kind.arguments.begin(), kind.arguments.end());
-    arguments.insert(arguments.end(), {"-f", kind.format, "file:" + beside_.string()});
+    arguments.insert(arguments.end(), {"-f", kind.format, "file:" + output_.beside().string()});
     const char* given = std::getenv(programVariable);
     const std::string program = given != nullptr && *given != '\0' ? given : "ffmpeg";
     try {
-      ffmpeg_.emplace(program, arguments);
-    } catch (const Error& error) {
-      discard();
-      throw Error("cannot write " + file.string() + ": " + error.what() +
-                  "; install ffmpeg or set " + programVariable + " to where it is");
+      ffmpeg_.emplace(program, arguments, ChildStreams{.input = true, .errors = true});
+    } catch (const std::system_error& error) {
+      throw Error("cannot write " + file.string() + ": the program " + program +
+                  " cannot be started: " + error.code().message() + "; install ffmpeg or set " +
+                  programVariable + " to where it is");
     }
   }
-
-  ~Implementation() {
-    ffmpeg_.reset();
-    if (!finished_) discard();
-  }
-  Implementation(const Implementation&) = delete;
-  Implementation& operator=(const Implementation&) = delete;
-  Implementation(Implementation&&) = delete;
-  Implementation& operator=(Implementation&&) = delete;
 
   void add(const Image& picture) {
     if (picture.width() != width_ || picture.height() != height_) {
@@ -125,38 +114,29 @@ class VideoWriter::Implementation {
                   std::to_string(picture.width()) + " x " + std::to_string(picture.height()) +
                   " pixels, the film " + std::to_string(width_) + " x " + std::to_string(height_));
     }
-    if (!ffmpeg_->feed(std::as_bytes(std::span(picture.pixels())))) {
-      ffmpeg_->finish();
+    if (!ffmpeg_->write(std::as_bytes(std::span(picture.pixels())))) {
+      ffmpeg_->wait();
       fail();
     }
   }
 
   void finish() {
-    if (!ffmpeg_->finish()) fail();
-    std::error_code failure;
-    std::filesystem::rename(beside_, file_, failure);
-    if (failure) throw Error("cannot write " + file_.string() + ": " + failure.message());
-    finished_ = true;
+    if (!hasSucceeded(ffmpeg_->wait())) fail();
+    output_.moveToPlace();
   }
 
  private:
   [[noreturn]] void fail() const {
-    const std::string words = ffmpeg_->complaint();
+    const std::string words = ffmpeg_->lastErrorLine();
     throw Error("cannot write " + file_.string() + ": ffmpeg failed" +
                 (words.empty() ? "" : ", saying \"" + words + "\""));
   }
 
-  void discard() const {
-    std::error_code ignored;
-    std::filesystem::remove(beside_, ignored);
-  }
-
   std::filesystem::path file_;
-  std::filesystem::path beside_;
+  OutputFile output_;
   int width_;
   int height_;
-  std::optional<drawing::FedProgram> ffmpeg_;
-  bool finished_ = false;
+  std::optional<ChildProcess> ffmpeg_;  // ends before what it writes is removed
 };
 
 VideoWriter::VideoWriter(const std::filesystem::path& file, int width, int height,

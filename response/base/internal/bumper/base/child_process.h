@@ -16,8 +16,8 @@ struct ChildStreams {
   bool errors = false;  ///< kept for ChildProcess::lastErrorLine()
 };
 
-/// A running program that does not outlive the object. It inherits nothing but its standard
-/// streams, and no signal is blocked or ignored in it; no shell takes part.
+/// A running program that does not outlive the object. No signal is blocked or ignored in it, it
+/// holds no other child's streams, and no shell takes part.
 class ChildProcess {
  public:
   /// Looks for the program where PATH says unless its name holds a slash. Throws std::system_error
@@ -37,8 +37,8 @@ class ChildProcess {
   /// Descriptor of a pipe's end, which the object closes. −1 if the output is not connected.
   [[nodiscard]] int output() const { return output_; }
 
-  // How it ended, as waitpid() gives it; 0 if the application ignores SIGCHLD, so that nobody
-  // knows.
+  // How it ended, as waitpid() gives it; 0 if the application ignores SIGCHLD, so that it is
+  // unknown.
 
   /// Closes its input and waits until it has ended.
   int wait();
