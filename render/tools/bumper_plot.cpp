@@ -1,10 +1,10 @@
 // Plots a recording with gnuplot: bumper-plot --help.
 
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 
+#include "bumper/base/output_file.h"
 #include "bumper/response/error.h"
 #include "plots.h"
 #include "recorded_run.h"
@@ -13,7 +13,7 @@
 namespace {
 
 using namespace bumper;
-using namespace bumper::examples;
+using namespace bumper::tools;
 
 constexpr const char* manual = R"(Plots, each a PNG file of its name in the folder:
   yaw_rate   over time (the paper's Figure 7 with --sae)
@@ -30,7 +30,7 @@ The program gnuplot draws them; it must be on the path.
 
 )";
 
-struct Order {
+struct Arguments {
   RecordedRunOptions run;
   std::filesystem::path folder;
   std::vector<std::string> only{"yaw_rate", "speed", "force", "impulse", "path"};
@@ -38,51 +38,46 @@ struct Order {
   PlotOptions plot;
 };
 
-void plot(Order& order) {
+void plot(Arguments& arguments) {
   if (!havePlotter()) throw Error("the program gnuplot cannot be run: it draws the plots");
   bool withPath = false;
-  for (const std::string& name : order.only) withPath = withPath || name == "path";
+  for (const std::string& name : arguments.only) withPath = withPath || name == "path";
   RecordedRun run;
   if (withPath)
-    run = readRecordedRun(order.run);
+    run = readRecordedRun(arguments.run);
   else
-    run.recording = readRecordedPart(order.run, run.description);
-  if (!order.vehicle.empty()) order.plot.vehicle = vehicleIndex(run.recording, order.vehicle);
+    run.recording = readRecordedPart(arguments.run, run.description);
+  if (!arguments.vehicle.empty())
+    arguments.plot.vehicle = vehicleIndex(run.recording, arguments.vehicle);
 
-  makeFolder(order.folder);
-  for (const std::string& name : order.only) {
-    const std::filesystem::path png = order.folder / (name + ".png");
-    if (name == "yaw_rate") plotYawRate(run.recording, order.plot, png);
-    if (name == "speed") plotSpeed(run.recording, order.plot, png);
-    if (name == "force") plotForce(run.recording, order.plot, png);
-    if (name == "impulse") plotImpulse(run.recording, order.plot, png);
-    if (name == "path") plotPath(run.scene, run.recording, order.plot, png);
+  makeFolder(arguments.folder);
+  for (const std::string& name : arguments.only) {
+    const std::filesystem::path png = arguments.folder / (name + ".png");
+    if (name == "yaw_rate") plotYawRate(run.recording, arguments.plot, png);
+    if (name == "speed") plotSpeed(run.recording, arguments.plot, png);
+    if (name == "force") plotForce(run.recording, arguments.plot, png);
+    if (name == "impulse") plotImpulse(run.recording, arguments.plot, png);
+    if (name == "path") plotPath(run.scene, run.recording, arguments.plot, png);
     std::printf("%s\n", png.string().c_str());
   }
 }
 
 int runPlot(int argc, char** argv) {
-  Order order;
+  Arguments arguments;
   CLI::App app("Plots yaw rate, speed, force, impulse and path of a recorded run.", "bumper-plot");
-  addRecordedRunOptions(app, order.run);
-  app.add_option("folder", order.folder, "for the plots; made if it does not exist")->required();
-  app.add_option("--only", order.only, "which plots (default: all)")
+  addRecordedRunOptions(app, arguments.run);
+  app.add_option("folder", arguments.folder, "for the plots; made if it does not exist")
+      ->required();
+  app.add_option("--only", arguments.only, "which plots (default: all)")
       ->delimiter(',')
       ->check(CLI::IsMember({"yaw_rate", "speed", "force", "impulse", "path"}));
-  app.add_option("--vehicle", order.vehicle, "which vehicle (default: the first)");
-  app.add_flag("--sae", order.plot.sae,
+  app.add_option("--vehicle", arguments.vehicle, "which vehicle (default: the first)");
+  app.add_flag("--sae", arguments.plot.sae,
                "signs as in the paper (SAE J670: y to the right, yaw rate positive turning right)");
   app.footer(manual + exitCodes());
-  return runTool(app, argc, argv, [&] { plot(order); });
+  return runTool(app, argc, argv, [&] { plot(arguments); });
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    return runPlot(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bumper-plot: %s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return runMain("bumper-plot", runPlot, argc, argv); }

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <map>
 #include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bumper/base/output_file.h"
 #include "bumper/render/contact_sheet.h"
 #include "bumper/render/csv_export.h"
 #include "bumper/render/glb_export.h"
@@ -26,7 +26,7 @@
 namespace {
 
 using namespace bumper;
-using namespace bumper::examples;
+using namespace bumper::tools;
 
 constexpr const char* manual = R"(Commands begin with the recording and end with what is made:
 
@@ -51,7 +51,7 @@ ending chooses: .mp4, .webm, .gif or .apng. Nothing half-done is left behind on 
 
 )";
 
-struct Order {
+struct Arguments {
   RecordedRunOptions run;
   std::filesystem::path result;
   ReplayOptions replay;
@@ -69,53 +69,54 @@ const std::map<std::string, SnapshotView> views{{"top", SnapshotView::top},
                                                 {"orbit", SnapshotView::orbit},
                                                 {"fixed", SnapshotView::fixed}};
 
-VehicleMeshes meshesOf(const Order& order, const Recording& recording) {
-  return loadVehicleMeshes(order.meshes, recording, order.run.recording.parent_path());
+VehicleMeshes meshesOf(const Arguments& arguments, const Recording& recording) {
+  return loadVehicleMeshes(arguments.meshes, recording, arguments.run.recording.parent_path());
 }
 
 /// The options that became strings on the command line.
-void complete(Order& order, const Recording& recording) {
-  SnapshotOptions& picture = order.replay.picture;
-  if (!order.size.empty()) {
-    std::istringstream text(order.size);
+void complete(Arguments& arguments, const Recording& recording) {
+  SnapshotOptions& picture = arguments.replay.picture;
+  if (!arguments.size.empty()) {
+    std::istringstream text(arguments.size);
     char times = 0;
     if (!(text >> picture.width >> times >> picture.height) || times != 'x' || text.peek() != EOF)
-      throw Error("--size: '" + order.size + "' is not <width>x<height>");
+      throw Error("--size: '" + arguments.size + "' is not <width>x<height>");
   }
-  if (!order.vehicle.empty()) {
-    picture.chase.vehicle = picture.orbit.vehicle = vehicleIndex(recording, order.vehicle);
+  if (!arguments.vehicle.empty()) {
+    picture.chase.vehicle = picture.orbit.vehicle = vehicleIndex(recording, arguments.vehicle);
     picture.orbit.around = OrbitCamera::Around::vehicle;
   }
-  picture.vehicleMeshes = meshesOf(order, recording);
-  const RecordingSpan& span = order.run.span;
-  if (std::isfinite(span.from)) order.replay.timing.from = span.from;
-  if (std::isfinite(span.to)) order.replay.timing.to = span.to;
-  if (!order.camera.empty()) {
+  picture.vehicleMeshes = meshesOf(arguments, recording);
+  const RecordingSpan& span = arguments.run.span;
+  if (std::isfinite(span.from)) arguments.replay.timing.from = span.from;
+  if (std::isfinite(span.to)) arguments.replay.timing.to = span.to;
+  if (!arguments.camera.empty()) {
     picture.view = SnapshotView::fixed;
-    picture.fixed.eye << order.camera[0], order.camera[1], order.camera[2];
-    picture.fixed.target << order.camera[3], order.camera[4], order.camera[5];
+    picture.fixed.eye << arguments.camera[0], arguments.camera[1], arguments.camera[2];
+    picture.fixed.target << arguments.camera[3], arguments.camera[4], arguments.camera[5];
   }
 }
 
-void addPictureOptions(CLI::App& command, Order& order) {
-  SnapshotOptions& picture = order.replay.picture;
+void addPictureOptions(CLI::App& command, Arguments& arguments) {
+  SnapshotOptions& picture = arguments.replay.picture;
   command.add_option("--view", picture.view, "top, three_quarter, chase, orbit or fixed")
       ->transform(CLI::CheckedTransformer(views))
       ->type_name("VIEW");
-  command.add_option("--vehicle", order.vehicle, "name of the vehicle that chase and orbit follow");
+  command.add_option("--vehicle", arguments.vehicle,
+                     "name of the vehicle that chase and orbit follow");
   command
-      .add_option("--camera", order.camera,
+      .add_option("--camera", arguments.camera,
                   "where a fixed camera stands and what it looks at, m: x,y,z,x,y,z")
       ->delimiter(',')
       ->expected(6)
       ->type_name("M");
-  command.add_option("--size", order.size, "pixels (default 1280x720, films 960x540)")
+  command.add_option("--size", arguments.size, "pixels (default 1280x720, films 960x540)")
       ->type_name("WxH");
   command.add_option("--title", picture.title, "(default: the scene's name)");
 }
 
-void addTimingOptions(CLI::App& command, Order& order) {
-  ReplayTiming& timing = order.replay.timing;
+void addTimingOptions(CLI::App& command, Arguments& arguments) {
+  ReplayTiming& timing = arguments.replay.timing;
   command.add_option("--fps", timing.framesPerSecond, "frames per second")->capture_default_str();
   command.add_option("--speed", timing.speed, "seconds of the run in one of the replay")
       ->capture_default_str();
@@ -125,13 +126,13 @@ void addTimingOptions(CLI::App& command, Order& order) {
       ->capture_default_str();
   command.add_option("--slow-reach", timing.slowReach, "s before and after an impact")
       ->capture_default_str();
-  command.add_option("--renderers", order.replay.renderers, "frames in work at the same time")
+  command.add_option("--renderers", arguments.replay.renderers, "frames in work at the same time")
       ->capture_default_str();
 }
 
-void printInfo(const Order& order) {
+void printInfo(const Arguments& arguments) {
   RunDescription run;
-  const Recording recording = readRecordedPart(order.run, run);
+  const Recording recording = readRecordedPart(arguments.run, run);
   const std::string scene = !run.scene.builtIn.empty() ? run.scene.builtIn : run.scene.file;
   std::printf("scene: %s%s%s\n", run.scene.name.c_str(), scene.empty() ? "" : ", ", scene.c_str());
   for (const auto& [name, value] : run.parameters) {
@@ -152,117 +153,113 @@ void printInfo(const Order& order) {
   printImpacts(recording);
 }
 
-void makePicture(Order& order) {
-  const RecordedRun run = readRecordedRun(order.run);
-  complete(order, run.recording);
-  writePng(renderSnapshot(run.scene, run.recording, order.replay.picture), order.result);
+void makePicture(Arguments& arguments) {
+  const RecordedRun run = readRecordedRun(arguments.run);
+  complete(arguments, run.recording);
+  writePng(renderSnapshot(run.scene, run.recording, arguments.replay.picture), arguments.result);
 }
 
-void makeSheet(Order& order) {
-  const RecordedRun run = readRecordedRun(order.run);
-  order.sheet.vehicleMeshes = meshesOf(order, run.recording);
-  writePng(contactSheet(run.scene, run.recording, order.sheet), order.result);
+void makeSheet(Arguments& arguments) {
+  const RecordedRun run = readRecordedRun(arguments.run);
+  arguments.sheet.vehicleMeshes = meshesOf(arguments, run.recording);
+  writePng(contactSheet(run.scene, run.recording, arguments.sheet), arguments.result);
 }
 
-void makeCloseUps(Order& order) {
-  const RecordedRun run = readRecordedRun(order.run);
-  makeFolder(order.result);
+void makeCloseUps(Arguments& arguments) {
+  const RecordedRun run = readRecordedRun(arguments.run);
+  makeFolder(arguments.result);
   std::vector<std::pair<double, std::size_t>> hardest;
   for (std::size_t k = 0; k < run.recording.impacts().size(); ++k)
     hardest.emplace_back(-run.recording.impacts()[k].event().deltaV, k);
   std::sort(hardest.begin(), hardest.end());
-  if (hardest.size() > order.sheet.impacts) hardest.resize(order.sheet.impacts);
+  if (hardest.size() > arguments.sheet.impacts) hardest.resize(arguments.sheet.impacts);
   for (const auto& [unused, k] : hardest) {
-    const std::filesystem::path png = order.result / ("impact_" + std::to_string(k + 1) + ".png");
+    const std::filesystem::path png =
+        arguments.result / ("impact_" + std::to_string(k + 1) + ".png");
     writePng(impactCloseUp(run.scene, run.recording, k), png);
   }
 }
 
-void makeVideo(Order& order) {
-  const RecordedRun run = readRecordedRun(order.run);
-  complete(order, run.recording);
-  writeReplayVideo(run.scene, run.recording, order.result, order.replay, ProgressLine("frame"));
+void makeVideo(Arguments& arguments) {
+  const RecordedRun run = readRecordedRun(arguments.run);
+  complete(arguments, run.recording);
+  writeReplayVideo(run.scene, run.recording, arguments.result, arguments.replay,
+                   ProgressLine("frame"));
 }
 
-void makeFrames(Order& order) {
-  const RecordedRun run = readRecordedRun(order.run);
-  complete(order, run.recording);
-  writeReplayFrames(run.scene, run.recording, order.result, order.replay, ProgressLine("frame"));
+void makeFrames(Arguments& arguments) {
+  const RecordedRun run = readRecordedRun(arguments.run);
+  complete(arguments, run.recording);
+  writeReplayFrames(run.scene, run.recording, arguments.result, arguments.replay,
+                    ProgressLine("frame"));
 }
 
-void makeGlb(Order& order) {
-  const RecordedRun run = readRecordedRun(order.run);
-  order.glb.vehicleMeshes = meshesOf(order, run.recording);
-  writeGlb(run.scene, run.recording, order.result, order.glb);
+void makeGlb(Arguments& arguments) {
+  const RecordedRun run = readRecordedRun(arguments.run);
+  arguments.glb.vehicleMeshes = meshesOf(arguments, run.recording);
+  writeGlb(run.scene, run.recording, arguments.result, arguments.glb);
 }
 
-void makeCsv(Order& order) {
+void makeCsv(Arguments& arguments) {
   RunDescription run;
-  const Recording recording = readRecordedPart(order.run, run);
-  writeCsv(recording, order.result,
-           order.vehicle.empty() ? 0 : vehicleIndex(recording, order.vehicle));
+  const Recording recording = readRecordedPart(arguments.run, run);
+  writeCsv(recording, arguments.result,
+           arguments.vehicle.empty() ? 0 : vehicleIndex(recording, arguments.vehicle));
 }
 
 int replay(int argc, char** argv) {
-  Order order;
+  Arguments arguments;
   CLI::App app("Makes pictures, films, 3D files and tables of a recorded run.", "bumper-replay");
   app.require_subcommand(1);
   app.footer(manual + exitCodes());
   std::function<void()> job;
 
   const auto command = [&](const char* name, const char* what, const char* result,
-                           const std::function<void(Order&)>& work) {
+                           const std::function<void(Arguments&)>& work) {
     CLI::App* added = app.add_subcommand(name, what);
-    addRecordedRunOptions(*added, order.run);
-    if (result != nullptr) added->add_option("result", order.result, result)->required();
-    added->callback([&job, &order, work] { job = [&order, work] { work(order); }; });
+    addRecordedRunOptions(*added, arguments.run);
+    if (result != nullptr) added->add_option("result", arguments.result, result)->required();
+    added->callback([&job, &arguments, work] { job = [&arguments, work] { work(arguments); }; });
     return added;
   };
 
   command("info", "what is in a recording, and its impacts", nullptr, printInfo);
   CLI::App* picture = command("picture", "one picture of the whole run", "PNG file", makePicture);
-  addPictureOptions(*picture, order);
+  addPictureOptions(*picture, arguments);
   CLI::App* sheet =
       command("sheet", "one picture with the moments around each impact", "PNG file", makeSheet);
   CLI::App* closeUps =
       command("closeups", "a diagram of each impact, impact_<number>.png", "folder", makeCloseUps);
   for (CLI::App* each : {sheet, closeUps}) {
-    each->add_option("--impacts", order.sheet.impacts, "at most so many, the hardest")
+    each->add_option("--impacts", arguments.sheet.impacts, "at most so many, the hardest")
         ->capture_default_str();
   }
-  sheet->add_option("--instants", order.sheet.instants, "s from the impact, one picture each")
+  sheet->add_option("--instants", arguments.sheet.instants, "s from the impact, one picture each")
       ->delimiter(',')
       ->capture_default_str();
-  sheet->add_option("--title", order.sheet.title, "(default: the scene's name)");
+  sheet->add_option("--title", arguments.sheet.title, "(default: the scene's name)");
   CLI::App* video =
       command("video", "a film, by the program ffmpeg", ".mp4, .webm, .gif or .apng", makeVideo);
   CLI::App* frames = command("frames", "a film as single PNG files", "folder", makeFrames);
   for (CLI::App* film : {video, frames}) {
-    addPictureOptions(*film, order);
-    addTimingOptions(*film, order);
+    addPictureOptions(*film, arguments);
+    addTimingOptions(*film, arguments);
   }
   CLI::App* glb = command("glb", "an animated 3D file for any glTF viewer", ".glb", makeGlb);
-  glb->add_option("--reach", order.glb.sceneReach,
+  glb->add_option("--reach", arguments.glb.sceneReach,
                   "m around the run: what of the scene lies beyond is left out")
       ->capture_default_str();
-  glb->add_option("--keys-per-second", order.glb.keysPerSecond, "(default: every pose)");
+  glb->add_option("--keys-per-second", arguments.glb.keysPerSecond, "(default: every pose)");
   for (CLI::App* each : {picture, sheet, video, frames, glb})
-    addVehicleMeshOptions(*each, order.meshes);
+    addVehicleMeshOptions(*each, arguments.meshes);
   CLI::App* csv = command("csv", "events.csv and trajectory.csv", "folder", makeCsv);
-  csv->add_option("--vehicle", order.vehicle, "whose trajectory (default: the first)");
+  csv->add_option("--vehicle", arguments.vehicle, "whose trajectory (default: the first)");
 
   // A film's frames are small and follow the vehicle; a picture is neither.
-  picture->preparse_callback([&](std::size_t) { order.replay.picture = SnapshotOptions(); });
+  picture->preparse_callback([&](std::size_t) { arguments.replay.picture = SnapshotOptions(); });
   return runTool(app, argc, argv, [&] { job(); });
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    return replay(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bumper-replay: %s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return runMain("bumper-replay", replay, argc, argv); }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace bumper::examples {
+namespace bumper::tools {
 
 namespace {
 
@@ -60,4 +60,4 @@ void printImpacts(const Recording& recording, std::size_t most) {
   }
 }
 
-}  // namespace bumper::examples
+}  // namespace bumper::tools

@@ -4,9 +4,9 @@
 
 #include "bumper/render/recording.h"
 
-namespace bumper::examples {
+namespace bumper::tools {
 
 /// Prints the impacts in the order of time, one a line; of more than `most` the hardest.
 void printImpacts(const Recording& recording, std::size_t most = 24);
 
-}  // namespace bumper::examples
+}  // namespace bumper::tools

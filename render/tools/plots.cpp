@@ -4,23 +4,26 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
+#include "bumper/base/child_process.h"
 #include "bumper/response/contact_point.h"
 #include "bumper/response/error.h"
 #include "bumper/scenes/walls.h"
 
-namespace bumper::examples {
+namespace bumper::tools {
 
 namespace {
 
 constexpr double degrees = 180.0 / std::numbers::pi;
+
+constexpr const char* plotterName = "gnuplot";
 
 constexpr const char* look = R"(
 set terminal pngcairo size 1200,600 font 'sans,13' background rgb 'white'
@@ -37,13 +40,16 @@ std::string quoted(const std::filesystem::path& path) {
 }
 
 void runPlotter(const std::string& script, const std::filesystem::path& png) {
-  std::FILE* plotter = popen("gnuplot", "w");
-  bool sound = plotter != nullptr;
-  if (sound) {
-    sound = std::fwrite(script.data(), 1, script.size(), plotter) == script.size();
-    sound = pclose(plotter) == 0 && sound;
+  std::string words;
+  try {
+    ChildProcess plotter(plotterName, {}, {.input = true, .errors = true});
+    const bool taken = plotter.write(std::as_bytes(std::span(script)));
+    if (hasSucceeded(plotter.wait()) && taken) return;
+    words = plotter.lastErrorLine();
+  } catch (const std::system_error& error) {
+    words = error.code().message();
   }
-  if (!sound) throw Error("gnuplot could not draw " + png.string());
+  throw Error("gnuplot could not draw " + png.string() + (words.empty() ? "" : ": " + words));
 }
 
 const std::vector<RecordedPose>& posesOf(const Recording& recording, const PlotOptions& options) {
@@ -99,7 +105,13 @@ void outlineAt(std::ostream& out, const RecordedVehicle& vehicle, double time, d
 
 }  // namespace
 
-bool havePlotter() { return std::system("gnuplot --version >/dev/null 2>&1") == 0; }
+bool havePlotter() {
+  try {
+    return hasSucceeded(ChildProcess(plotterName, {"--version"}, {}).wait());
+  } catch (const std::system_error&) {
+    return false;
+  }
+}
 
 void plotYawRate(const Recording& recording, const PlotOptions& options,
                  const std::filesystem::path& png) {
@@ -269,4 +281,4 @@ plot $curves using 1:2 with lines lw 3 lc rgb '#1f4e9c' title 'e', \
   runPlotter(script.str(), png);
 }
 
-}  // namespace bumper::examples
+}  // namespace bumper::tools

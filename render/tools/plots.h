@@ -7,7 +7,7 @@
 #include "bumper/response/response_settings.h"
 #include "bumper/scenes/scene.h"
 
-namespace bumper::examples {
+namespace bumper::tools {
 
 /// Whether the program gnuplot can be run.
 bool havePlotter();
@@ -42,4 +42,4 @@ void plotPath(const Scene& scene, const Recording& recording, const PlotOptions&
 /// The paper's Figure 4, with friction and remaining energy beside restitution.
 void plotCurves(const ResponseSettings& settings, const std::filesystem::path& png);
 
-}  // namespace bumper::examples
+}  // namespace bumper::tools

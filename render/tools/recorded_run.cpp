@@ -7,7 +7,7 @@
 #include "bumper/scenes/paper_scenes.h"
 #include "bumper/scenes/scene_files.h"
 
-namespace bumper::examples {
+namespace bumper::tools {
 
 namespace {
 
@@ -82,4 +82,4 @@ RecordedRun readRecordedRun(const RecordedRunOptions& options) {
   return run;
 }
 
-}  // namespace bumper::examples
+}  // namespace bumper::tools

@@ -9,14 +9,14 @@
 #include "bumper/render/recording_reader.h"
 #include "bumper/scenes/scene.h"
 
-namespace bumper::examples {
+namespace bumper::tools {
 
 /// Which recording a tool reads, and where its scene is.
 struct RecordedRunOptions {
   std::filesystem::path recording;
-  std::filesystem::path scene;  ///< empty: where the recording says
-  std::string up;               ///< "x", "y", "z"; empty: as the recording says
-  double scale = 0.0;           ///< 0: as the recording says
+  std::filesystem::path scene;  ///< empty: the one that the recording names
+  std::string up;               ///< "x", "y", "z"; empty: as in the recording
+  double scale = 0.0;           ///< 0: as in the recording
   RecordingSpan span;
 };
 
@@ -29,15 +29,15 @@ struct RecordedRun {
   Scene scene;
 };
 
-/// The recording's part between --from and --to. Says on standard error if the file is cut off.
+/// The recording's part between --from and --to. Warns on standard error if the file is incomplete.
 Recording readRecordedPart(const RecordedRunOptions& options, RunDescription& description);
 
 /// The recording with its scene: one of the paper's, or a mesh file, beside the recording unless
-/// its path is absolute, read in a process of its own. Says on standard error if the scene has
+/// its path is absolute, read in a process of its own. Warns on standard error if the scene has
 /// changed since. Throws Error, saying how to name the scene, if it is not found.
 RecordedRun readRecordedRun(const RecordedRunOptions& options);
 
 /// What --vehicle names. Throws Error, listing the names, if there is no such vehicle.
 std::size_t vehicleIndex(const Recording& recording, const std::string& name);
 
-}  // namespace bumper::examples
+}  // namespace bumper::tools

@@ -3,12 +3,19 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <system_error>
+#include <exception>
 #include <utility>
 
-#include "bumper/response/error.h"
+namespace bumper::tools {
 
-namespace bumper::examples {
+int runMain(const char* name, int (*program)(int argc, char** argv), int argc, char** argv) {
+  try {
+    return program(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", name, error.what());
+    return 1;
+  }
+}
 
 int runTool(CLI::App& app, int argc, char** argv, const std::function<void()>& job) {
   try {
@@ -24,12 +31,6 @@ std::string exitCodes() {
   return "Exit codes: 0 done, 1 failed (the reason is on standard error), 2 wrong command line.";
 }
 
-void makeFolder(const std::filesystem::path& folder) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure) throw Error("cannot make the folder " + folder.string() + ": " + failure.message());
-}
-
 ProgressLine::ProgressLine(std::string work)
     : work_(std::move(work)), isTerminal_(isatty(STDERR_FILENO) != 0) {}
 
@@ -42,4 +43,4 @@ void ProgressLine::operator()(std::size_t done, std::size_t all) {
                isTerminal_ && done < all ? "" : "\n");
 }
 
-}  // namespace bumper::examples
+}  // namespace bumper::tools

@@ -2,23 +2,23 @@
 
 #include <CLI/CLI.hpp>
 #include <cstddef>
-#include <filesystem>
 #include <functional>
 #include <string>
 
-namespace bumper::examples {
+namespace bumper::tools {
+
+/// The whole of a main(): what `program` throws is printed on standard error after the name, with
+/// exit code 1.
+int runMain(const char* name, int (*program)(int argc, char** argv), int argc, char** argv);
 
 /// Reads the command line and runs the job. Returns the exit code: 0, or 2 if the command line is
-/// wrong; what the job throws is main's to report, with exit code 1.
+/// wrong. Throws what the job throws.
 int runTool(CLI::App& app, int argc, char** argv, const std::function<void()>& job);
 
 /// The end of a tool's --help.
 std::string exitCodes();
 
-/// Makes a folder for results unless it exists. Throws Error, naming it, if that fails.
-void makeFolder(const std::filesystem::path& folder);
-
-/// Tells on standard error how far a long work is, in one line on a terminal, else in quarters.
+/// Prints on standard error how far a long job is, in one line on a terminal, else in quarters.
 class ProgressLine {
  public:
   explicit ProgressLine(std::string work);
@@ -30,4 +30,4 @@ class ProgressLine {
   std::size_t shown_ = 0;
 };
 
-}  // namespace bumper::examples
+}  // namespace bumper::tools

@@ -10,7 +10,7 @@
 #include "bumper/response/error.h"
 #include "bumper/scenes/scene_files.h"
 
-namespace bumper::examples {
+namespace bumper::tools {
 
 namespace {
 
@@ -24,8 +24,8 @@ std::shared_ptr<const Scene> load(const std::filesystem::path& file, const std::
   try {
     mesh = loadScene(file, options);
   } catch (const Error& error) {
-    const bool asks = std::string(error.what()).find("LoadOptions::up") != std::string::npos;
-    throw Error(std::string(error.what()) + (asks ? "; here: --vehicle-mesh-up" : ""));
+    const bool needsUp = std::string(error.what()).find("LoadOptions::up") != std::string::npos;
+    throw Error(std::string(error.what()) + (needsUp ? "; here: --vehicle-mesh-up" : ""));
   }
   const Eigen::AngleAxisd turned(turn * std::numbers::pi / 180.0, Eigen::Vector3d::UnitZ());
   for (Eigen::Vector3d& vertex : mesh.vertices) vertex = turned * vertex;
@@ -117,4 +117,4 @@ VehicleMeshes loadVehicleMeshes(const VehicleMeshOptions& options, const Recordi
   return meshes;
 }
 
-}  // namespace bumper::examples
+}  // namespace bumper::tools
