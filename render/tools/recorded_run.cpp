@@ -52,7 +52,7 @@ void addRecordedRunOptions(CLI::App& command, RecordedRunOptions& options) {
 Recording readRecordedPart(const RecordedRunOptions& options, RunDescription& description) {
   RecordingReader reader(options.recording);
   description = reader.run();
-  if (reader.isCut()) {
+  if (!reader.isComplete()) {
     std::fprintf(stderr, "%s was not completed or is cut off: what there is of it is taken\n",
                  options.recording.string().c_str());
   }

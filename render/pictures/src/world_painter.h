@@ -12,10 +12,10 @@
 
 namespace bumper::drawing {
 
-/// Turns things of the world into a picture's lists.
+/// Fills a picture's lists with what stands in the world.
 class WorldPainter {
  public:
-  /// Sets what the picture needs to know of the camera, the light and the haze.
+  /// Sets camera, light and haze.
   WorldPainter(const Camera& camera, Picture& picture);
 
   /// Ghosts and solid vehicles in their paint, or as their own meshes.

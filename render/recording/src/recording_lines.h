@@ -18,7 +18,7 @@ namespace bumper {
 /// An impact's time, s, and the byte at which its line begins.
 using IndexedImpact = std::pair<double, std::uint64_t>;
 
-// Writing. What is appended ends with a line break unless it says otherwise.
+// Writing. What is appended ends with a line break unless stated otherwise.
 
 /// Throws Error if the description does not fit into a file.
 void appendHeader(std::string& text, const RunDescription& run,
@@ -35,7 +35,7 @@ void appendEnd(std::string& text, std::optional<std::uint64_t> index, std::uint6
 /// Throws Error unless the name is UTF-8.
 void requireUtf8(const std::string& name);
 
-// Reading. All throw Error if the line is not what it should be; the caller knows which it is.
+// Reading. All throw Error if the line is not what it should be; the caller adds its number.
 
 enum class LineKind { poses, impact, index, end };
 struct LineStart {

@@ -55,7 +55,7 @@ class RecordingReader::Implementation {
   [[nodiscard]] const HeaderLine& header() const { return header_; }
   [[nodiscard]] std::optional<double> firstTime() const { return firstTime_; }
   [[nodiscard]] std::optional<double> lastTime() const { return lastTime_; }
-  [[nodiscard]] bool isCut() const { return !end_; }
+  [[nodiscard]] bool isComplete() const { return end_.has_value(); }
 
   Recording read(const RecordingSpan& span) {
     check(span);
@@ -299,7 +299,7 @@ std::optional<double> RecordingReader::firstTime() const { return implementation
 
 std::optional<double> RecordingReader::lastTime() const { return implementation_->lastTime(); }
 
-bool RecordingReader::isCut() const { return implementation_->isCut(); }
+bool RecordingReader::isComplete() const { return implementation_->isComplete(); }
 
 Recording RecordingReader::read(const RecordingSpan& span) { return implementation_->read(span); }
 

@@ -53,7 +53,7 @@ class Image {
 /// half-written then remains.
 void writePng(const Image& image, const std::filesystem::path& file);
 
-/// Reads a PNG file of any kind as 8-bit RGB; what is transparent is put on white. Throws Error,
+/// Reads a PNG file of any kind as 8-bit RGB; transparency is blended onto white. Throws Error,
 /// naming the file, if it cannot be read, is no PNG, is cut off or damaged, or is larger than an
 /// Image can be.
 Image readPng(const std::filesystem::path& file);

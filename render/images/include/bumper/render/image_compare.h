@@ -4,13 +4,14 @@
 
 namespace bumper {
 
-/// When two pictures count as the same. The defaults see an edge that moved by a pixel, a car that
-/// turned by as much at its ends, or a missing mark, but not what a processor smooths otherwise.
+/// When two pictures count as the same. The defaults detect an edge that moved by a pixel, a car
+/// that turned by as much at its ends, or a missing mark, but not another processor's
+/// anti-aliasing.
 struct ImageCompareOptions {
   /// Channel values, 0 to 255, by which a pixel may differ.
   int tolerance = 12;
-  /// Pixels, 0 to 8: what is compared is the mean of the pixels so far around, which takes out
-  /// noise along edges but not their place.
+  /// Pixels, 0 to 8: radius of the box filter that both pictures pass first, which removes noise
+  /// along edges and keeps their place.
   int smoothing = 1;
   /// Pixels, 0 to 8, by which an edge may be shifted: a pixel may have any value that the other
   /// picture takes so near to it. For pictures of two drivers that place edges differently.

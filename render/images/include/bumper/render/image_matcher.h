@@ -10,7 +10,7 @@
 
 namespace bumper {
 
-/// GoogleMock's view of compareWithGolden(); made by MatchesGolden().
+/// A GoogleMock matcher around compareWithGolden(); made by MatchesGolden().
 class GoldenMatcher {
  public:
   using is_gtest_matcher = void;
@@ -36,12 +36,12 @@ class GoldenMatcher {
 /// `EXPECT_THAT(image, bumper::MatchesGolden("golden/run.png"))` in a GoogleTest program, which
 /// links GTest::gmock itself. Files that are left, and how the golden file is updated: see
 /// compareWithGolden(). Not to be negated: an update would make the golden file what it must not
-/// be; ask compareImages() instead.
+/// be; use compareImages() instead.
 inline GoldenMatcher MatchesGolden(std::filesystem::path golden, GoldenOptions options = {}) {
   return {std::move(golden), std::move(options)};
 }
 
-/// What GoogleTest prints of a picture.
+/// How GoogleTest prints a picture.
 inline void PrintTo(const Image& image, std::ostream* stream) {
   *stream << "a picture of " << image.width() << " x " << image.height() << " pixels";
 }

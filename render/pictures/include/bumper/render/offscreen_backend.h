@@ -4,8 +4,8 @@
 
 namespace bumper {
 
-/// What draws without a window. Both are parts of Mesa and need no graphics card; EGL uses one if
-/// it finds one.
+/// The library that draws without a window. Both are parts of Mesa and need no graphics card; EGL
+/// uses one if it finds one.
 enum class OffscreenBackend {
   automatic,  ///< OSMesa if bumper was built with it and it works here, else EGL
   osmesa,     ///< until Mesa 25.0

@@ -14,7 +14,7 @@
 
 namespace bumper {
 
-/// Where the camera stands. The first two find their frame by themselves: the run, not the scene.
+/// Where the camera stands. The first two frame the run, not the scene, by themselves.
 enum class SnapshotView {
   /// Straight from above, to scale. The frame is the rectangle along the world's axes around all
   /// drawn mass centres and contact points, grown on every side by 1.5 times the longest vehicle,
@@ -26,14 +26,15 @@ enum class SnapshotView {
   /// From behind, beside and above, on the open side of the wall: frames the hardest impact and
   /// what happened within 15 m of it; without impacts the last 30 m of the run.
   three_quarter,
-  chase,  ///< from behind and above a vehicle, as ChaseCamera says
-  fixed,  ///< from one point to another, as FixedCamera says
-  orbit   ///< on a circle around a point, as OrbitCamera says
+  chase,  ///< from behind and above a vehicle: ChaseCamera
+  fixed,  ///< from one point to another: FixedCamera
+  orbit   ///< on a circle around a point: OrbitCamera
 };
 
-/// Follows a vehicle at the last instant that the picture shows, as if pulled on a rope: behind the
-/// way that the vehicle came, so that it turns gently where the vehicle spins. Where a wall stands
-/// between the two, it moves up to the vehicle. Shows 52° from the top to the bottom.
+/// Follows a vehicle at the last instant that the picture shows, as if towed on a rope: it looks
+/// along the vehicle's path rather than its heading, so that it turns gently where the vehicle
+/// spins. Where a wall would stand between the two, it moves up to the vehicle. Vertical field of
+/// view 52°.
 struct ChaseCamera {
   std::size_t vehicle = 0;  ///< index in the recording
   double distance = 10.0;   ///< m behind the mass centre, 2 to 1000
@@ -44,11 +45,11 @@ struct ChaseCamera {
 struct FixedCamera {
   Eigen::Vector3d eye{-20.0, -20.0, 15.0};
   Eigen::Vector3d target{0.0, 0.0, 0.0};  ///< in the middle of the picture; not at the eye
-  double fieldOfView = 40.0;              ///< degrees from the top to the bottom, 1 to 120
+  double fieldOfView = 40.0;              ///< vertical, degrees, 1 to 120
 };
 
-/// On a circle around a point, looking at it, with the light from its side. Shows 32° from the top
-/// to the bottom.
+/// On a circle around a point, looking at it, with the light from its side. Vertical field of view
+/// 32°.
 struct OrbitCamera {
   enum class Around {
     hardest_impact,  ///< of all that the picture frames; without impacts the vehicle

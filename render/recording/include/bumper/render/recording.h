@@ -50,9 +50,9 @@ struct RecordedVehicle {
   std::vector<RecordedPose> poses;  ///< in order of time
 };
 
-/// The pose at a time, with position and velocity on straight lines and the orientation on the
-/// shortest turn between the two poses around it; nothing before the first pose, after the last, or
-/// without poses. Of two poses at the same time the later counts.
+/// The pose at a time: linear interpolation between the two poses around it, spherical for the
+/// orientation along the shorter arc; nothing before the first pose, after the last, or without
+/// poses. Of two poses at the same time the later counts.
 std::optional<RecordedPose> poseAt(const RecordedVehicle& vehicle, double time);
 
 /// What a run did: the vehicles, where they were over time, and their impacts. An application fills

@@ -13,7 +13,7 @@
 
 namespace bumper {
 
-/// Which part of a recording file is wanted.
+/// A part of a recording file.
 struct RecordingSpan {
   double from = -std::numeric_limits<double>::infinity();  ///< s
   double to = std::numeric_limits<double>::infinity();     ///< s, ≥ from
@@ -22,9 +22,9 @@ struct RecordingSpan {
   double poseSpacing = 0.0;
 };
 
-/// Opens a recording file at any time without reading all of it: the way to an instant is found by
-/// halving, the way to the impacts by the file's index. A file that grows is read up to where it
-/// ended when it was opened.
+/// Opens a recording file at any time without reading all of it: an instant is found by bisection,
+/// the impacts by the file's index. A file that grows is read up to where it ended when it was
+/// opened.
 ///
 /// Throws Error, naming the file, if it cannot be read, and with the line's number if it is no
 /// recording, of a newer format or damaged. Only lines that are read are checked. One thread at a
@@ -48,9 +48,9 @@ class RecordingReader {
   [[nodiscard]] std::optional<double> firstTime() const;
   [[nodiscard]] std::optional<double> lastTime() const;
 
-  /// Whether the file ends before its last line: the application did not close it, or it was cut
-  /// off. What comes before is read as it is.
-  [[nodiscard]] bool isCut() const;
+  /// Whether the file has its last line. Without it the application did not close the file, or it
+  /// was truncated; what there is of it is read all the same.
+  [[nodiscard]] bool isComplete() const;
 
   /// All vehicles, the poses of the span with the nearest lines before and after it (so that
   /// poseAt() answers all over the span), and the impacts within it. Takes memory for what it

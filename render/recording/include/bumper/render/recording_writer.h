@@ -36,7 +36,7 @@ class RecordingWriter {
   RecordingWriter& operator=(const RecordingWriter&) = delete;
   RecordingWriter(RecordingWriter&&) = delete;
   RecordingWriter& operator=(RecordingWriter&&) = delete;
-  /// Closes the file; whether that succeeds is known only to who calls close().
+  /// Closes the file; only close() reports whether that succeeds.
   ~RecordingWriter();
 
   /// As Recording::addVehicle(). Throws Error too once there is a pose or an impact, or if the name
@@ -52,7 +52,7 @@ class RecordingWriter {
   /// become U+FFFD; of the numbers that need not be finite, an infinite one becomes NaN.
   void addImpact(const ImpactEvent& event);
 
-  /// Hands all that was added to the operating system.
+  /// Passes all that was added to the operating system.
   void flush();
 
   /// Completes the file: index and last line. Nothing can be added any more. Does nothing if the
@@ -80,8 +80,8 @@ class RecordingWriter {
   RunDescription run_;
   std::vector<RecordedVehicle> vehicles_;  ///< without poses
   std::vector<LastTimes> last_;            ///< of each vehicle
-  std::string text_;                       ///< whole lines on their way
-  std::uint64_t written_ = 0;              ///< bytes that were handed over
+  std::string text_;                       ///< whole lines, not yet written
+  std::uint64_t written_ = 0;              ///< bytes
   std::string poseLine_;                   ///< without its end; empty: none begun
   double poseTime_ = -std::numeric_limits<double>::infinity();  ///< of the last pose, s
   std::vector<std::pair<double, std::uint64_t>> index_;  ///< impacts since the last index line

@@ -21,7 +21,7 @@ struct ContactSheetOptions {
   VehicleMeshes vehicleMeshes{};  ///< of the vehicles that are not drawn as a car-like body
 };
 
-/// One picture that tells the whole run: on top the run from above, below it a row for each impact,
+/// One picture of the whole run: on top the run from above, below it a row for each impact,
 /// in the order of time, with its number, time, Δv, speeds and yaw rates, and pictures of the
 /// vehicle at instants around it, from where least of it is hidden. An impact within 0.3 s of a
 /// harder one of the same vehicle is named in that one's row instead. Earlier instants are ghosts.

@@ -15,8 +15,8 @@ struct GlbOptions {
   /// the world's axes, is left out, so that a viewer opens with the run in sight. Infinity keeps
   /// all.
   double sceneReach = 120.0;
-  /// Keys of a vehicle's animation, 1/s, > 0: poses that follow the last kept one more closely are
-  /// left out, but not the last of all. Infinity keeps every pose.
+  /// Keyframes of a vehicle's animation, 1/s, > 0: poses that follow the last kept one more closely
+  /// are left out, but not the last of all. Infinity keeps every pose.
   double keysPerSecond = std::numeric_limits<double>::infinity();
   bool showPath = true;           ///< ribbons on the ground, coloured by speed
   bool showImpacts = true;        ///< a pin at each, with an arrow along the wall's normal

@@ -13,7 +13,7 @@
 
 namespace bumper {
 
-/// How the time of a recording goes by in a replay.
+/// How a replay's time maps to the recording's.
 struct ReplayTiming {
   double framesPerSecond = 30.0;  ///< 1 to 240
   double speed = 1.0;             ///< seconds of the run in one of the replay, 0.001 to 1000
@@ -36,8 +36,8 @@ struct ReplayOptions {
     chasing.height = 540;
     return chasing;
   }();
-  /// Pictures that are in work at the same time, 1 to 64, each with a renderer of its own. More
-  /// than there are processors is no gain.
+  /// Frames that are drawn in parallel, 1 to 64, each by a renderer of its own. More than there are
+  /// processors is no gain.
   std::size_t renderers = 2;
 };
 

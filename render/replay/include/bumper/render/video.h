@@ -7,9 +7,9 @@
 
 namespace bumper {
 
-/// Makes a film of pictures through the program ffmpeg, which the environment variable
-/// BUMPER_FFMPEG names; without it, the one that PATH finds. The pictures go down a pipe as they
-/// come; no shell takes part.
+/// Encodes pictures as a film through the program ffmpeg, which the environment variable
+/// BUMPER_FFMPEG names; without it, the one that PATH finds. It runs as a child process, to which
+/// the pictures are piped as they are added; no shell takes part.
 ///
 /// The file's ending chooses the kind: .mp4 (H.264), .webm (VP9), .gif or .apng (both in a loop).
 /// In mp4 and webm an odd width or height is padded to an even one. The film is written beside its
@@ -26,7 +26,7 @@ class VideoWriter {
   ~VideoWriter();
 
   /// Waits while ffmpeg is busy. Throws Error, naming the file, if the picture is of another size
-  /// than the film, or with ffmpeg's own words if it has failed.
+  /// than the film, or with ffmpeg's message if it has failed.
   void add(const Image& picture);
 
   /// Waits until the film stands in its place. Throws Error, naming the file, if ffmpeg fails.
