@@ -25,22 +25,25 @@ function(bumper_target_options target)
       $<$<BOOL:${BUMPER_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()
 
-# bumper_library(<component> ROOM <room> SOURCES <file>... [PUBLIC <target>...] [PRIVATE <target>...])
+# bumper_library(<component> SOURCES <file>... [PUBLIC <target>...] [PRIVATE <target>...])
+# The component's public headers are those of its own folder include/; whoever links it gets these and
+# those of its PUBLIC targets.
 function(bumper_library component)
-  cmake_parse_arguments(ARG "" "ROOM" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target bumper_${component})
   add_library(${target} ${ARG_SOURCES})
   add_library(bumper::${component} ALIAS ${target})
   bumper_target_options(${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${component} BUMPER_COMPONENT ${component})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${component})
   target_include_directories(
     ${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
                      $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-  install(TARGETS ${target} EXPORT bumper_${component}_targets)
+  install(TARGETS ${target} EXPORT bumper_${component}_targets COMPONENT ${component})
   install(EXPORT bumper_${component}_targets NAMESPACE bumper::
-          DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/bumper FILE bumper_${component}_targets.cmake)
-  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+          DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/bumper FILE bumper_${component}_targets.cmake
+          COMPONENT ${component})
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT ${component})
 endfunction()
 
 # bumper_program(<name> SOURCES <file>... LINK <target>...)

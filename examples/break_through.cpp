@@ -7,19 +7,21 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <numbers>
 
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/scenes/paper_scenes.h"
 #include "bumper/scenes/scene_files.h"
+#include "impact_table.h"
 #include "results.h"
+#include "tool.h"
 
 namespace {
 
 using namespace bumper;
 using namespace bumper::examples;
+using namespace bumper::tools;
 
 constexpr double step = 0.005;  // s
 constexpr int steps = 600;
@@ -88,39 +90,36 @@ Recording drive(dWorldID world, const Scene& scene) {
   return recording;
 }
 
-}  // namespace
+int run(int argc, char** argv) {
+  std::filesystem::path folder = "out/break_through";
+  CLI::App app("Two cars break through a fence; the wall behind it stops them.");
+  app.add_option("folder", folder, "for tables and pictures")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  // In a file beside the recording, by which the tools find it again.
+  std::filesystem::create_directories(folder);
+  saveScene(yard(), folder / "yard.glb");
+  const Scene scene = loadScene(folder / "yard.glb");
+  RunDescription described{.scene = referenceTo(scene)};
+  described.scene.file = "yard.glb";
 
-int main(int argc, char** argv) {
-  try {
-    std::filesystem::path folder = "out/break_through";
-    CLI::App app("Two cars break through a fence; the wall behind it stops them.");
-    app.add_option("folder", folder, "for tables and pictures")->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
-    // In a file beside the recording, by which the tools find it again.
-    std::filesystem::create_directories(folder);
-    saveScene(yard(), folder / "yard.glb");
-    const Scene scene = loadScene(folder / "yard.glb");
-    RunDescription described{.scene = referenceTo(scene)};
-    described.scene.file = "yard.glb";
+  dInitODE2(0);
+  const dWorldID world = dWorldCreate();  // without gravity: the cars stay in their yaw plane
+  const Recording recording = drive(world, scene);
+  dWorldDestroy(world);
+  dCloseODE();
 
-    dInitODE2(0);
-    const dWorldID world = dWorldCreate();  // without gravity: the cars stay in their yaw plane
-    const Recording recording = drive(world, scene);
-    dWorldDestroy(world);
-    dCloseODE();
-
-    std::printf("Break-through, %zu triangles\n", scene.triangles.size());
-    printImpacts(recording);
-    for (const RecordedImpact& impact : recording.impacts()) {
-      const ImpactEvent event = impact.event();
-      if (event.material != "wood") continue;
-      std::printf("  %.8s: %.4f of the energy asked, %.4f left\n", event.vehicle.data(),
-                  event.energyAsked, event.energyRatio);
-    }
-    writeResults(folder, scene, recording, "Through a fence at 60 mph", described);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "break_through: %s\n", error.what());
-    return 1;
+  std::printf("Break-through, %zu triangles\n", scene.triangles.size());
+  printImpacts(recording);
+  for (const RecordedImpact& impact : recording.impacts()) {
+    const ImpactEvent event = impact.event();
+    if (event.material != "wood") continue;
+    std::printf("  %.8s: %.4f of the energy asked, %.4f left\n", event.vehicle.data(),
+                event.energyAsked, event.energyRatio);
   }
+  writeResults(folder, scene, recording, "Through a fence at 60 mph", described);
   return 0;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return runMain("break_through", run, argc, argv); }

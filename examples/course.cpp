@@ -7,19 +7,21 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <numbers>
 
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/scenes/paper_scenes.h"
+#include "impact_table.h"
 #include "path_follower.h"
 #include "results.h"
+#include "tool.h"
 
 namespace {
 
 using namespace bumper;
 using namespace bumper::examples;
+using namespace bumper::tools;
 
 constexpr double step = 0.005;            // s
 constexpr double speed = 28.0;            // m/s
@@ -72,30 +74,27 @@ Recording driveLap(dWorldID world, const Scene& scene) {
   return recording;
 }
 
-}  // namespace
+int run(int argc, char** argv) {
+  std::filesystem::path folder = "out/course";
+  CLI::App app("A lap of the course that stands for Watkins Glen, swerving into the walls.");
+  app.add_option("folder", folder, "for tables and pictures")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  dInitODE2(0);
+  const dWorldID world = dWorldCreate();  // without gravity: the car stays in its yaw plane
+  const Scene scene = course();
+  const Recording recording = driveLap(world, scene);
+  dWorldDestroy(world);
+  dCloseODE();
 
-int main(int argc, char** argv) {
-  try {
-    std::filesystem::path folder = "out/course";
-    CLI::App app("A lap of the course that stands for Watkins Glen, swerving into the walls.");
-    app.add_option("folder", folder, "for tables and pictures")->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
-    dInitODE2(0);
-    const dWorldID world = dWorldCreate();  // without gravity: the car stays in its yaw plane
-    const Scene scene = course();
-    const Recording recording = driveLap(world, scene);
-    dWorldDestroy(world);
-    dCloseODE();
-
-    std::printf("Course, %zu triangles: %.1f s for the lap, %zu impacts\n", scene.triangles.size(),
-                recording.vehicles()[0].poses.back().time, recording.impacts().size());
-    printImpacts(recording);
-    RunDescription run{.scene = referenceTo(scene)};
-    run.scene.builtIn = "course";
-    writeResults(folder, scene, recording, "Course, one lap", run);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "course: %s\n", error.what());
-    return 1;
-  }
+  std::printf("Course, %zu triangles: %.1f s for the lap, %zu impacts\n", scene.triangles.size(),
+              recording.vehicles()[0].poses.back().time, recording.impacts().size());
+  printImpacts(recording);
+  RunDescription run{.scene = referenceTo(scene)};
+  run.scene.builtIn = "course";
+  writeResults(folder, scene, recording, "Course, one lap", run);
   return 0;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return runMain("course", run, argc, argv); }

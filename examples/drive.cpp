@@ -12,7 +12,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <functional>
 #include <numbers>
@@ -23,6 +22,7 @@
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/response/error.h"
 #include "bumper/scenes/scene_files.h"
+#include "impact_table.h"
 #include "ray_suspension.h"
 #include "results.h"
 #include "tool.h"
@@ -33,11 +33,12 @@ namespace {
 
 using namespace bumper;
 using namespace bumper::examples;
+using namespace bumper::tools;
 
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr double gravity = 9.81;  // m/s²
 
-struct Order {
+struct Arguments {
   std::filesystem::path scene;
   std::string up;
   double scale = 1.0;
@@ -128,7 +129,8 @@ struct World {
   Responder* responder = nullptr;
 };
 
-Eigen::Vector3d startOf(const Order& order, const Scene& scene, dGeomID mesh, double height) {
+Eigen::Vector3d startOf(const Arguments& arguments, const Scene& scene, dGeomID mesh,
+                        double height) {
   Eigen::Vector3d low = scene.vertices[0];
   Eigen::Vector3d high = low;
   for (const Eigen::Vector3d& v : scene.vertices) {
@@ -136,7 +138,7 @@ Eigen::Vector3d startOf(const Order& order, const Scene& scene, dGeomID mesh, do
     high = high.cwiseMax(v);
   }
   Eigen::Vector3d start = 0.5 * (low + high);
-  if (!order.start.empty()) start.head<2>() << order.start[0], order.start[1];
+  if (!arguments.start.empty()) start.head<2>() << arguments.start[0], arguments.start[1];
   const double ground = groundHeight(mesh, start.x(), start.y(), high.z() + 1.0);
   if (std::isnan(ground)) {
     std::ostringstream message;
@@ -149,44 +151,45 @@ Eigen::Vector3d startOf(const Order& order, const Scene& scene, dGeomID mesh, do
   return start;
 }
 
-Recording run(const Order& order, const Scene& scene) {
-  World world(scene, matchingMeshes(scene, order.scenery));
+Recording run(const Arguments& arguments, const Scene& scene) {
+  World world(scene, matchingMeshes(scene, arguments.scenery));
   const YawPlaneCarDesign design;
   YawPlaneCar car(world.world, world.space, design,
-                  startOf(order, scene, world.mesh, design.body.massCentreHeight),
-                  order.heading * degree, order.speed);
+                  startOf(arguments, scene, world.mesh, design.body.massCentreHeight),
+                  arguments.heading * degree, arguments.speed);
   // After what it refers to, so that it is gone before.
   Responder responder(
-      world.world, {.response = {.law = order.law == "energy" ? Law::energy : Law::restitution}});
+      world.world,
+      {.response = {.law = arguments.law == "energy" ? Law::energy : Law::restitution}});
   world.responder = &responder;
   const BarrierId barrier =
-      responder.addBarrier(world.mesh, {.name = order.scene.filename().string()});
+      responder.addBarrier(world.mesh, {.name = arguments.scene.filename().string()});
   const WallReport& report = responder.report(barrier);
   std::printf(
       "%s: %zu triangles, %zu of them walls from %.1f to %.1f m (%.1f MB); dropped: %zu out of "
       "reach, %zu twice\n",
-      order.scene.filename().string().c_str(), scene.triangles.size(), report.walls,
+      arguments.scene.filename().string().c_str(), scene.triangles.size(), report.walls,
       report.lowestFoot, report.highestTop, 1e-6 * static_cast<double>(report.memory),
       report.droppedOverhead + report.droppedBuried,
       report.droppedDuplicate + report.droppedRetriangulated);
 
   const VehicleId vehicle = responder.addVehicle(car.body(), design.body, {.name = "car"});
   RaySuspension suspension(car, world.mesh, gravity);
-  const AngleCurve steering = steeringOf(order.steering);
+  const AngleCurve steering = steeringOf(arguments.steering);
 
   Recording recording;
-  const std::size_t recorded =
-      recording.addVehicle("car", design.body, meshSettings(order.meshes, "car", order.out));
+  const std::size_t recorded = recording.addVehicle(
+      "car", design.body, meshSettings(arguments.meshes, "car", arguments.out));
   recording.addPose(recorded, poseOf(responder, vehicle));
   const auto started = std::chrono::steady_clock::now();
-  while (responder.time() < order.duration - 0.5 * order.step) {
+  while (responder.time() < arguments.duration - 0.5 * arguments.step) {
     dSpaceCollide(world.space, &world, &World::nearCallback);
     car.steer(steering(responder.time()));
-    car.drive(order.coast ? 0.0 : 3000.0 * (order.speed - car.forwardSpeed()));
+    car.drive(arguments.coast ? 0.0 : 3000.0 * (arguments.speed - car.forwardSpeed()));
     suspension.addForces();
     car.addTyreForces();
-    record(responder.step(order.step), recording);
-    dWorldQuickStep(world.world, order.step);
+    record(responder.step(arguments.step), recording);
+    dWorldQuickStep(world.world, arguments.step);
     dJointGroupEmpty(world.joints);
     recording.addPose(recorded, poseOf(responder, vehicle));
     if ((responder.issues() & step_issue::tilted) != 0) {
@@ -201,17 +204,17 @@ Recording run(const Order& order, const Scene& scene) {
   return recording;
 }
 
-// Tells of what takes longer than a moment.
-class ProgressLine {
+// Prints how far the loading is, if it takes longer than a moment.
+class LoadProgress {
  public:
-  ~ProgressLine() {
-    if (told_) std::fputc('\n', stderr);
+  ~LoadProgress() {
+    if (printed_) std::fputc('\n', stderr);
   }
   void operator()(LoadStage stage, double share) {
     const auto now = std::chrono::steady_clock::now();
     if (now - last_ < std::chrono::milliseconds(500)) return;
     last_ = now;
-    told_ = true;
+    printed_ = true;
     constexpr std::array<const char*, 4> names{"reading", "converting", "welding", "dropping"};
     const std::chrono::duration<double> passed = now - begun_;
     std::fprintf(stderr, "\rloading: %.1f s, %s %3.0f %%   ", passed.count(),
@@ -221,16 +224,16 @@ class ProgressLine {
  private:
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point last_ = begun_;
-  bool told_ = false;
+  bool printed_ = false;
 };
 
-Scene load(const Order& order) {
-  ProgressLine line;
-  LoadOptions options{.scale = order.scale, .isolate = true, .progress = std::ref(line)};
-  if (order.up == "y") options.up = UpAxis::y;
-  if (order.up == "z") options.up = UpAxis::z;
+Scene load(const Arguments& arguments) {
+  LoadProgress line;
+  LoadOptions options{.scale = arguments.scale, .isolate = true, .progress = std::ref(line)};
+  if (arguments.up == "y") options.up = UpAxis::y;
+  if (arguments.up == "z") options.up = UpAxis::z;
   try {
-    return loadScene(order.scene, options);
+    return loadScene(arguments.scene, options);
   } catch (const Error& error) {
     if (options.up || std::string(error.what()).find("LoadOptions::up") == std::string::npos) throw;
     throw Error(std::string(error.what()) + "; here: --up y or --up z");
@@ -238,72 +241,68 @@ Scene load(const Order& order) {
 }
 
 // So that the recording finds its scene again when both are moved together.
-RunDescription describe(const Order& order, const Scene& scene) {
+RunDescription describe(const Arguments& arguments, const Scene& scene) {
   RunDescription run{.scene = referenceTo(scene)};
   run.scene.file =
-      std::filesystem::proximate(order.scene, std::filesystem::absolute(order.out)).string();
-  run.scene.up = order.up;
-  run.scene.scale = order.scale;
-  run.parameters = {{"law", order.law}, {"step_s", order.step}};
+      std::filesystem::proximate(arguments.scene, std::filesystem::absolute(arguments.out))
+          .string();
+  run.scene.up = arguments.up;
+  run.scene.scale = arguments.scale;
+  run.parameters = {{"law", arguments.law}, {"step_s", arguments.step}};
   return run;
 }
 
-void drive(const Order& order) {
+void drive(const Arguments& arguments) {
   dInitODE2(0);
-  const Scene scene = load(order);
-  const Recording recording = run(order, scene);
-  const VehicleMeshes meshes = loadVehicleMeshes(order.meshes, recording, order.out);
+  const Scene scene = load(arguments);
+  const Recording recording = run(arguments, scene);
+  const VehicleMeshes meshes = loadVehicleMeshes(arguments.meshes, recording, arguments.out);
   printImpacts(recording);
-  writeResults(order.out, scene, recording, order.scene.filename().string(), describe(order, scene),
-               meshes);
+  writeResults(arguments.out, scene, recording, arguments.scene.filename().string(),
+               describe(arguments, scene), meshes);
   dCloseODE();
 }
 
 int runDrive(int argc, char** argv) {
-  Order order;
+  Arguments arguments;
   CLI::App app("Drives a car through a mesh file and lets it hit what stands in its way.",
                "bumper-drive");
-  app.add_option("scene", order.scene, "mesh file, any format that assimp reads")->required();
-  app.add_option("--up", order.up, "the file's up axis, for formats that state none")
+  app.add_option("scene", arguments.scene, "mesh file, any format that assimp reads")->required();
+  app.add_option("--up", arguments.up, "the file's up axis, for formats that state none")
       ->check(CLI::IsMember({"y", "z"}));
-  app.add_option("--scale", order.scale, "metres per unit of the file")
+  app.add_option("--scale", arguments.scale, "metres per unit of the file")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--scenery", order.scenery,
+  app.add_option("--scenery", arguments.scenery,
                  "meshes to drive through, by name or material, as trees in pictures: a regular "
                  "expression, e.g. \"OBJ.*|TREE.*\"");
-  app.add_option("--start", order.start, "of the start, m, z up (default: the scene's middle)")
+  app.add_option("--start", arguments.start, "of the start, m, z up (default: the scene's middle)")
       ->delimiter(',')
       ->expected(2)
       ->type_name("X,Y");
-  app.add_option("--heading", order.heading, "of the start, deg from x towards y")
+  app.add_option("--heading", arguments.heading, "of the start, deg from x towards y")
       ->capture_default_str();
-  app.add_option("--speed", order.speed, "at the start, and held from then on, m/s")
+  app.add_option("--speed", arguments.speed, "at the start, and held from then on, m/s")
       ->capture_default_str();
-  app.add_option("--steering", order.steering,
+  app.add_option("--steering", arguments.steering,
                  "front wheel angles over time, <s>:<deg>,<s>:<deg>,…, positive to the left")
       ->delimiter(',');
-  app.add_flag("--coast", order.coast, "do not hold the speed");
-  app.add_option("--duration", order.duration, "s")
+  app.add_flag("--coast", arguments.coast, "do not hold the speed");
+  app.add_option("--duration", arguments.duration, "s")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--step", order.step, "s")->check(CLI::Range(1e-4, 0.05))->capture_default_str();
-  app.add_option("--law", order.law, "how the walls answer")
+  app.add_option("--step", arguments.step, "s")
+      ->check(CLI::Range(1e-4, 0.05))
+      ->capture_default_str();
+  app.add_option("--law", arguments.law, "how the walls answer")
       ->check(CLI::IsMember({"restitution", "energy"}))
       ->capture_default_str();
-  addVehicleMeshOptions(app, order.meshes);
-  app.add_option("--out", order.out, "folder for tables and pictures")->capture_default_str();
+  addVehicleMeshOptions(app, arguments.meshes);
+  app.add_option("--out", arguments.out, "folder for tables and pictures")->capture_default_str();
   app.footer("\n" + exitCodes());
-  return runTool(app, argc, argv, [&] { drive(order); });
+  return runTool(app, argc, argv, [&] { drive(arguments); });
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    return runDrive(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "bumper-drive: %s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return runMain("bumper-drive", runDrive, argc, argv); }

@@ -25,7 +25,4 @@ void writeResults(const std::filesystem::path& folder, const Scene& scene,
                   const Recording& recording, const std::string& title, const RunDescription& run,
                   const VehicleMeshes& meshes = {});
 
-/// Prints the impacts in the order of time, one a line; of more than `most` the hardest.
-void printImpacts(const Recording& recording, std::size_t most = 24);
-
 }  // namespace bumper::examples

@@ -6,21 +6,23 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <string>
 
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/response/error.h"
 #include "bumper/scenes/paper_scenes.h"
+#include "impact_table.h"
 #include "plots.h"
 #include "results.h"
 #include "test_rail_run.h"
+#include "tool.h"
 
 namespace {
 
 using namespace bumper;
 using namespace bumper::examples;
+using namespace bumper::tools;
 
 void runLaw(const std::filesystem::path& folder, Law law) {
   ResponseSettings settings;
@@ -43,21 +45,18 @@ void runLaw(const std::filesystem::path& folder, Law law) {
   std::printf("  %s\n", curves.string().c_str());
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  try {
-    std::filesystem::path folder = "out/test_rail";
-    CLI::App app("The paper's test: 60 mph into an L-shaped wall, by both laws.");
-    app.add_option("folder", folder, "for tables and pictures")->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
-    dInitODE2(0);
-    runLaw(folder, Law::restitution);
-    runLaw(folder, Law::energy);
-    dCloseODE();
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "test_rail: %s\n", error.what());
-    return 1;
-  }
+int run(int argc, char** argv) {
+  std::filesystem::path folder = "out/test_rail";
+  CLI::App app("The paper's test: 60 mph into an L-shaped wall, by both laws.");
+  app.add_option("folder", folder, "for tables and pictures")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  dInitODE2(0);
+  runLaw(folder, Law::restitution);
+  runLaw(folder, Law::energy);
+  dCloseODE();
   return 0;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return runMain("test_rail", run, argc, argv); }

@@ -2,16 +2,10 @@
 # golden pictures by the environment variable, and sees them kept and missed:
 #   cmake -D PREFIX=<installed package> -D GENERATOR=<generator> -D SOURCE=<tests/consumer/pictures>
 #         -D WORK=<folder> -P run_pictures.cmake
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 file(REMOVE_RECURSE ${WORK})
 file(COPY ${SOURCE}/ DESTINATION ${WORK}/source)
 set(ENV{MESA_SHADER_CACHE_DISABLE} true)
-
-function(run)
-  execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE out)
-  if(NOT result EQUAL 0)
-    message(FATAL_ERROR "${ARGV} failed (${result}):\n${out}")
-  endif()
-endfunction()
 
 set(differences ${WORK}/build/golden_differences/matcher_difference.png ${WORK}/build/out/run_difference.png)
 

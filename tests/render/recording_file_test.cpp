@@ -293,7 +293,7 @@ TEST(RecordingFile, aStreamIsTheSameAsTheWhole) {
       writer.addImpact(impact);
     }
   }  // closed by its end
-  EXPECT_FALSE(RecordingReader(file).isCut());
+  EXPECT_TRUE(RecordingReader(file).isComplete());
   expectSame(readRecording(file), run);
 }
 
@@ -304,7 +304,7 @@ TEST(RecordingFile, recordingsWithoutPosesOrImpacts) {
   RecordingReader empty(file);
   EXPECT_FALSE(empty.firstTime());
   EXPECT_FALSE(empty.lastTime());
-  EXPECT_FALSE(empty.isCut());
+  EXPECT_TRUE(empty.isComplete());
   EXPECT_TRUE(empty.vehicles().empty());
   EXPECT_TRUE(empty.read().impacts().empty());
 
@@ -406,7 +406,7 @@ TEST(RecordingFile, whatWasFlushedIsThere) {
   }
   writer.flush();
   RecordingReader reader(file);
-  EXPECT_TRUE(reader.isCut());
+  EXPECT_FALSE(reader.isComplete());
   EXPECT_EQ(reader.lastTime(), 9.0);
   pose.time = 10.0;
   writer.addPose(0, pose);
@@ -429,7 +429,7 @@ TEST(RecordingFile, aCutFileIsReadUpToTheCut) {
   for (std::size_t size = header; size < whole.size() - 1; ++size) {
     writeText(cut, whole.substr(0, size));
     RecordingReader reader(cut);
-    EXPECT_TRUE(reader.isCut());
+    EXPECT_FALSE(reader.isComplete());
     const Recording read = reader.read();
     // A line counts once its last brace is there.
     std::size_t poses = 0;
@@ -613,7 +613,7 @@ TEST(RecordingFile, impactsOfAFileWithoutEnd) {
   for (int k = 0; k < 5000; ++k) writer.addImpact(anyImpact(k, "car", numbers));
   writer.flush();  // four lines of index, and some impacts behind the last
   RecordingReader reader(file);
-  EXPECT_TRUE(reader.isCut());
+  EXPECT_FALSE(reader.isComplete());
   EXPECT_EQ(reader.impacts().size(), 5000U);
   const auto some = reader.impacts({.from = 1000.5, .to = 4999.0});
   ASSERT_EQ(some.size(), 3999U);

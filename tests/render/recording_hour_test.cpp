@@ -62,7 +62,7 @@ TEST(RecordingHour, isWrittenAndOpenedWithBoundedMemory) {
     ASSERT_EQ(vehicle.poses.size(), 2U);
     EXPECT_NEAR(poseAt(vehicle, 2718.2818)->position.x(), 27182.818, 1e-6);
   }
-  EXPECT_TRUE(cut.isCut());
+  EXPECT_FALSE(cut.isComplete());
   EXPECT_NEAR(cut.lastTime().value(), 2400.0, 20.0);
   EXPECT_NEAR(static_cast<double>(impactsLeft), cut.lastTime().value(), 2.0);
 #ifdef __SANITIZE_ADDRESS__

@@ -1,8 +1,6 @@
 #include "read_isolated.h"
 
-#include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,10 +12,14 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
+#include <vector>
 
+#include "bumper/base/child_process.h"
 #include "scene_stream.h"
 
 namespace bumper {
@@ -49,102 +51,25 @@ std::filesystem::path findProgram() {
               " to where it is");
 }
 
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  [[nodiscard]] int number() const { return number_; }
-  void close() {
-    if (number_ >= 0) ::close(std::exchange(number_, -1));
-  }
-
- private:
-  int number_;
-};
-
-/// A running program, which does not outlive the object.
-class Process {
- public:
-  explicit Process(pid_t id) : id_(id) {}
-  ~Process() { end(); }
-  Process(const Process&) = delete;
-  Process& operator=(const Process&) = delete;
-
-  /// Kills it unless it has ended already, and gives its status as waitpid() does; 0 if the
-  /// application has arranged for its children's ends to go unnoticed.
-  int end() {
-    if (id_ < 0) return status_;
-    kill(id_, SIGKILL);
-    pid_t waited = 0;
-    do {
-      waited = waitpid(id_, &status_, 0);
-    } while (waited < 0 && errno == EINTR);
-    if (waited < 0) status_ = 0;
-    id_ = -1;
-    return status_;
-  }
-
- private:
-  pid_t id_;
-  int status_ = 0;
-};
-
-/// What posix_spawn() is told: standard output goes into the pipe, nothing else is inherited that
-/// the program could disturb or be disturbed by.
-class SpawnSettings {
- public:
-  explicit SpawnSettings(int output) {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
-    posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawnattr_init(&attributes_);
-    sigset_t signals;
-    sigemptyset(&signals);
-    posix_spawnattr_setsigmask(&attributes_, &signals);
-    sigfillset(&signals);
-    posix_spawnattr_setsigdefault(&attributes_, &signals);
-    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  }
-  ~SpawnSettings() {
-    posix_spawn_file_actions_destroy(&actions_);
-    posix_spawnattr_destroy(&attributes_);
-  }
-  SpawnSettings(const SpawnSettings&) = delete;
-  SpawnSettings& operator=(const SpawnSettings&) = delete;
-
-  [[nodiscard]] const posix_spawn_file_actions_t* actions() const { return &actions_; }
-  [[nodiscard]] const posix_spawnattr_t* attributes() const { return &attributes_; }
-
- private:
-  posix_spawn_file_actions_t actions_{};
-  posix_spawnattr_t attributes_{};
-};
-
-pid_t start(const std::filesystem::path& program, const std::filesystem::path& file,
-            const LoadOptions& options, int output) {
-  std::string programText = program.string();
-  std::string fileText = file.string();
-  std::string memory = std::to_string(options.memoryLimit);
+std::unique_ptr<ChildProcess> start(const std::filesystem::path& program,
+                                    const std::filesystem::path& file, const LoadOptions& options) {
   // In case that nobody is left to stop it.
-  std::string alarm = std::to_string(static_cast<unsigned>(std::min(options.timeout, 1e9)) + 2U);
-  const std::array<char*, 5> arguments{programText.data(), fileText.data(), memory.data(),
-                                       alarm.data(), nullptr};
-  const SpawnSettings settings(output);
-  pid_t id = -1;
-  const int failure = posix_spawn(&id, program.c_str(), settings.actions(), settings.attributes(),
-                                  arguments.data(), environ);
-  if (failure == 0) return id;
-  throw fileError(
-      file, "cannot be read: starting \"" + programText + "\" failed: " + std::strerror(failure));
+  const auto alarm = static_cast<unsigned>(std::min(options.timeout, 1e9)) + 2U;
+  const std::vector<std::string> arguments{file.string(), std::to_string(options.memoryLimit),
+                                           std::to_string(alarm)};
+  try {
+    // Absolute, so that it is not looked for in PATH.
+    return std::make_unique<ChildProcess>(std::filesystem::absolute(program).string(), arguments,
+                                          ChildStreams{.output = true});
+  } catch (const std::system_error& error) {
+    throw fileError(file, "cannot be read: starting \"" + program.string() +
+                              "\" failed: " + error.code().message());
+  }
 }
 
 /// Everything that comes out of the pipe, to its end.
-std::string readToEnd(const Descriptor& pipe, const std::filesystem::path& file,
-                      const LoadOptions& options, const Progress& progress) {
+std::string readToEnd(int pipe, const std::filesystem::path& file, const LoadOptions& options,
+                      const Progress& progress) {
   using Clock = std::chrono::steady_clock;
   const auto deadline =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(
@@ -157,13 +82,13 @@ std::string readToEnd(const Descriptor& pipe, const std::filesystem::path& file,
       throw fileError(file, "cannot be read: it takes longer than LoadOptions::timeout, " +
                                 std::to_string(options.timeout) + " s");
     }
-    pollfd waitFor{pipe.number(), POLLIN, 0};
+    pollfd waitFor{pipe, POLLIN, 0};
     const int wait = static_cast<int>(std::min(std::ceil(left.count()), progressInterval));
     if (poll(&waitFor, 1, wait) <= 0) {
       progress(LoadStage::reading, 0.0);
       continue;
     }
-    const ssize_t got = read(pipe.number(), block.data(), block.size());
+    const ssize_t got = read(pipe, block.data(), block.size());
     if (got == 0) return bytes;
     if (got < 0) {
       if (errno == EINTR) continue;
@@ -183,16 +108,9 @@ FileScene readIsolated(const std::filesystem::path& file, const LoadOptions& opt
                        const Progress& progress) {
   progress(LoadStage::reading, 0.0);
   const std::filesystem::path program = findProgram();
-  std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) {
-    throw fileError(file, std::string("cannot be read: no pipe: ") + std::strerror(errno));
-  }
-  const Descriptor output(ends[0]);
-  Descriptor input(ends[1]);
-  Process process(start(program, file, options, input.number()));
-  input.close();
-  const std::string bytes = readToEnd(output, file, options, progress);
-  const int status = process.end();
+  const std::unique_ptr<ChildProcess> reader = start(program, file, options);
+  const std::string bytes = readToEnd(reader->output(), file, options, progress);
+  const int status = reader->kill();
 
   if (WIFSIGNALED(status) && WTERMSIG(status) != SIGKILL) {
     throw fileError(file, std::string("cannot be read: it crashes the reader (") +
