@@ -2,27 +2,43 @@
 # bumper_program() for a test, benchmark or example.
 
 include_guard()
+include(CheckCXXCompilerFlag)
+
+# Asked for before they are used: another compiler may lack some.
+set(bumper_flags "")
+foreach(
+  flag
+  -Wall
+  -Wextra
+  -Wpedantic
+  -Wshadow
+  -Wconversion
+  -Wold-style-cast
+  -Wnon-virtual-dtor
+  # Same bits at every optimisation level: no fused multiply-add behind our back.
+  -ffp-contract=off
+  # Nobody replaces a function of ours when a program is loaded: they may be inlined.
+  -fno-semantic-interposition)
+  string(MAKE_C_IDENTIFIER "BUMPER_HAS${flag}" has)
+  check_cxx_compiler_flag(${flag} ${has})
+  if(${has})
+    list(APPEND bumper_flags ${flag})
+  endif()
+endforeach()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # From float alone: Clang means double to long double too, which the tests' oracles are made of.
+  list(APPEND bumper_flags -Wdouble-promotion)
+elseif(CMAKE_CXX_FLAGS MATCHES "-fsanitize=[a-z,]*address")
+  # GCC's macro, which Clang 14 lacks.
+  list(APPEND bumper_flags -D__SANITIZE_ADDRESS__)
+endif()
 
 # The same flags for every target of ours; none of them leaks to applications.
 function(bumper_target_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
-  target_compile_options(
-    ${target}
-    PRIVATE
-      -Wall
-      -Wextra
-      -Wpedantic
-      -Wshadow
-      -Wconversion
-      -Wold-style-cast
-      -Wnon-virtual-dtor
-      -Wdouble-promotion
-      # Same bits at every optimisation level: no fused multiply-add behind our back.
-      -ffp-contract=off
-      # Nobody replaces a function of ours when a program is loaded: they may be inlined.
-      -fno-semantic-interposition
-      $<$<BOOL:${BUMPER_WARNINGS_AS_ERRORS}>:-Werror>)
+  target_compile_options(${target} PRIVATE ${bumper_flags}
+                                           $<$<BOOL:${BUMPER_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()
 
 # bumper_library(<component> SOURCES <file>... [PUBLIC <target>...] [PRIVATE <target>...])

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs the main job: the paper's test rail and course, a
-# fence that breaks, then a drive on a real race track. Recordings, pictures, films (if ffmpeg is
-# there) and tables go to out/.
+# fence that breaks, then a drive on a real race track. Recordings, pictures, films and tables go to
+# out/.
 #   --no-download   leaves out the real track unless it is there already
 #   --dry-run       shows the packages and stops
 set -euo pipefail
@@ -26,18 +26,12 @@ cd "$root"
 # show FOLDER [OPTION of bumper-plot]...: everything that the tools make of a recording.
 show() {
   local folder=$1
-  local made="closeups sheet.png replay.glb plots"
   "$build/bin/bumper-replay" closeups "$folder/run.jsonl" "$folder/closeups"
   "$build/bin/bumper-replay" sheet "$folder/run.jsonl" "$folder/sheet.png"
   "$build/bin/bumper-replay" glb "$folder/run.jsonl" "$folder/replay.glb"
   "$build/bin/bumper-plot" "$folder/run.jsonl" "$folder/plots" "${@:2}" >/dev/null
-  if command -v "${BUMPER_FFMPEG:-ffmpeg}" >/dev/null; then
-    "$build/bin/bumper-replay" video "$folder/run.jsonl" "$folder/replay.mp4"
-    made+=" replay.mp4"
-  else
-    echo "  left out: replay.mp4, for which ffmpeg is not installed"
-  fi
-  printf "  $folder/%s\n" $made
+  "$build/bin/bumper-replay" video "$folder/run.jsonl" "$folder/replay.mp4"
+  printf "  $folder/%s\n" closeups sheet.png replay.glb plots replay.mp4
 }
 
 say "The paper's test rail"

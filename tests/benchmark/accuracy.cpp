@@ -214,7 +214,7 @@ int main(int argc, char** argv) try {
   if (quick) makeQuick(options);
   options.plain = std::min(options.plain, options.cases);
   dInitODE2(0);
-  dAllocateODEDataForThread(dAllocateMaskAll);
+  dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
   dSetMessageHandler(countMessage);
   run(options);
   dCloseODE();

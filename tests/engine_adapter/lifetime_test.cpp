@@ -310,7 +310,7 @@ TEST(Lifetime, OdeIsClosedFirst) {
   }
   dSpaceDestroy(spaceLeft);
   dInitODE2(0);
-  dAllocateODEDataForThread(dAllocateMaskAll);
+  dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
 }
 
 }  // namespace

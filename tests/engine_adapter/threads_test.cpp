@@ -68,7 +68,7 @@ TEST(Threads, EachWorldRunsAsIfAlone) {
   const std::vector<std::array<double, 3>> alone[] = {drive(0.1), drive(0.2)};
   const auto onThread = [](double yaw) {
     return std::async(std::launch::async, [yaw] {
-      dAllocateODEDataForThread(dAllocateMaskAll);
+      dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
       auto path = drive(yaw);
       dCleanupODEAllDataForThread();
       return path;

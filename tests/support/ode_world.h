@@ -15,7 +15,7 @@ class OdeEnvironment : public ::testing::Environment {
  public:
   void SetUp() override {
     dInitODE2(0);
-    dAllocateODEDataForThread(dAllocateMaskAll);
+    dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
   }
   void TearDown() override { dCloseODE(); }
 };

@@ -41,7 +41,7 @@ int main(int argc, char** argv) try {
                "instructions per query, measures nothing else");
   CLI11_PARSE(app, argc, argv);
   dInitODE2(0);
-  dAllocateODEDataForThread(dAllocateMaskAll);
+  dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll));
   dSetMessageHandler(drop);
   if (count) {
     countAllInstructions(quick);
