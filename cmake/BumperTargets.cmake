@@ -66,6 +66,8 @@ endfunction()
 function(bumper_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
+  # Tests repeat each other's names.
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
   bumper_target_options(${name})
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
 endfunction()

@@ -149,7 +149,7 @@ const std::string& Barrier::materialOf(int wall) const {
 }
 
 int Barrier::triangleOf(int wall) const {
-  // The triangles of a box are Bumper's own.
+  // A box's triangles are internal to Bumper.
   if (!mesh_ || mesh_->isSolid()) return -1;
   return mesh_->walls().triangle(static_cast<std::size_t>(wall));
 }

@@ -12,7 +12,7 @@
 
 namespace bumper {
 
-/// What stands behind a BarrierId: triangles, or a plane or cylinder of ODE's.
+/// The barrier of a BarrierId: triangles, or a plane or cylinder of ODE's.
 class Barrier {
  public:
   /// A scene, as a new geom.
@@ -32,7 +32,7 @@ class Barrier {
   [[nodiscard]] dGeomID geom() const { return geom_; }
   /// Whether a geom that has the address geom() is still that one, and not another in its place.
   [[nodiscard]] bool isStill(dGeomID existing) const;
-  /// Whether a scene says where its walls are, not the geom.
+  /// Whether its walls are given by a scene, not the geom.
   [[nodiscard]] bool hasScene() const { return hasScene_; }
   [[nodiscard]] const WallReport& report() const { return report_; }
 
@@ -43,8 +43,8 @@ class Barrier {
     return primitive_ ? &*primitive_ : nullptr;
   }
 
-  /// How far along its middle line a strip is free of walls, m, as WallPlan::freeUntil() says it;
-  /// of a plane or post within `height` above and below `z`, m.
+  /// How far along its middle line a strip is free of walls, m, as in WallPlan::freeUntil(); of a
+  /// plane or post within `height` above and below `z`, m.
   [[nodiscard]] double freeUntil(const PlanStrip& strip, double z, double height) const;
   /// False: certainly no wall comes within `radius` of a place, m.
   [[nodiscard]] bool mayComeWithin(const Eigen::Vector3d& place, double radius) const;
@@ -57,16 +57,16 @@ class Barrier {
   [[nodiscard]] const std::string& materialOf(int wall) const;
   [[nodiscard]] int triangleOf(int wall) const;  ///< −1 if the geom has none
 
-  /// The number of the settings that a wall answers with; usual ones are number 0.
+  /// The number of a wall's settings; the barrier's usual ones are number 0.
   [[nodiscard]] int settingsNumberOf(int wall) const;
   [[nodiscard]] const ResponseSettings& settings(int number) const;
   [[nodiscard]] int settingsCount() const { return static_cast<int>(own_.size()); }
   [[nodiscard]] double longestPenetrationTime() const;
 
-  /// What a contact of geom() with something else is: the number of the triangle or −1, and the
+  /// Classifies a contact of geom() with something else: the number of the triangle or −1, and the
   /// contact's normal.
   [[nodiscard]] WallPart partAt(int triangle, const Eigen::Vector3d& normal) const;
-  /// The walls at whose foot such a triangle stands, if any.
+  /// The walls whose foot such a triangle is, if any.
   [[nodiscard]] std::optional<WallFoot> footAt(int triangle) const;
   /// Every contact of geom() is one with a wall's face.
   [[nodiscard]] bool hasWallsOnly() const;

@@ -19,10 +19,10 @@ void collectTriangles(dGeomID mesh, dGeomID /*box*/, const int* triangles, int c
   found->insert(found->end(), triangles, triangles + count);
 }
 
-// What ODE's tree takes for each triangle but one, bytes: a box in single precision, two pointers.
+// Memory of ODE's tree for each triangle but one, bytes: a box in single precision, two pointers.
 constexpr std::size_t treeNodeSize = 6 * sizeof(float) + 2 * sizeof(void*);
 
-// The list of triangles is all that is wanted; no contact need be made of any of them.
+// Only the list of triangles is needed; no contacts are generated.
 int noContact(dGeomID /*mesh*/, dGeomID /*box*/, int /*triangle*/) { return 0; }
 
 Scene sceneOf(dGeomID trimesh, const std::string& name) {

@@ -34,21 +34,21 @@ class BarrierMesh {
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const WallTable& walls() const { return walls_; }
   [[nodiscard]] const WallReport& report() const { return report_; }
-  /// The geom that the application's contacts come with; it may be gone.
+  /// The geom in the application's contacts; it may be destroyed.
   [[nodiscard]] dGeomID geom() const { return geom_; }
-  /// The same as long as it is Bumper's; null if it is the application's own.
+  /// The same if it is Bumper's; null if it is the application's own.
   [[nodiscard]] const LentGeom* lentGeom() const { return lent_ ? &*lent_ : nullptr; }
   /// The materials of the scene's meshes, and which of them a wall belongs to.
   [[nodiscard]] const std::vector<std::string>& materials() const { return materials_; }
   [[nodiscard]] std::size_t meshOf(int wall) const {
     return walls_.meshOf(static_cast<std::size_t>(wall));
   }
-  /// What a triangle of geom() is to the walls; geom() must be a trimesh.
+  /// The part of the walls that a triangle of geom() is; geom() must be a trimesh.
   [[nodiscard]] WallPart partOf(int triangle) const;
-  /// The walls that a triangle of geom() stands before, at their foot, if any; likewise.
+  /// The walls whose foot a triangle of geom() is, if any; likewise.
   [[nodiscard]] std::optional<WallFoot> footOf(int triangle) const;
   [[nodiscard]] bool hasWallsOnly() const { return parts_.empty() && !solid_; }
-  /// The walls enclose a solid, whose outside is what their normals say.
+  /// The walls enclose a solid; their normals point outwards.
   [[nodiscard]] bool isSolid() const { return solid_; }
   /// The highest foot and the lowest top of all walls, m.
   [[nodiscard]] double highestFoot() const { return highestFoot_; }

@@ -72,8 +72,9 @@ dGeomID transformAround(const Responder::Implementation& responder, dGeomID geom
   return nullptr;
 }
 
-/// Finds out what the contacts of one dCollide() are contacts of. Their own geoms say so: those
-/// that were collided may be spaces. The same geoms follow one another, and are looked up once.
+/// Finds the vehicle and barrier of each contact of one dCollide(), by the contact's own geoms:
+/// those that were collided may be spaces. The same geoms follow one another, and are looked up
+/// once.
 class ContactPairs {
  public:
   ContactPairs(const Responder::Implementation& responder, dGeomID a, dGeomID b)
@@ -132,8 +133,8 @@ bool isWithWall(const OwnedPair& pair, const VehiclePose& pose, const Contact& c
   return part.kind == WallPart::Kind::face || envelope.isAboveBottom(pose, contact.place);
 }
 
-/// Whether it is one of the chassis with the foot of such a wall: Bumper answers the wall, and the
-/// foot would answer it once more.
+/// Whether it is one of the chassis with the foot of such a wall: Bumper resolves the wall, and the
+/// foot would cause a second response.
 bool isWithFoot(const OwnedPair& pair, const VehiclePose& pose, const Contact& contact) {
   if (pair.body != pair.vehicle->bodies.chassis()) return false;
   const std::optional<WallFoot> foot = pair.barrier->footAt(contact.triangle);
@@ -146,7 +147,7 @@ bool isOurs(const OwnedPair& pair, const VehiclePose& pose, const dContactGeom& 
   const Contact contact{.place = toVector(geom.pos),
                         .normal = toVector(geom.normal),
                         .triangle = pair.barrierFirst ? geom.side1 : geom.side2};
-  // ODE numbers no triangle where two trimeshes meet along their edges.
+  // ODE gives no triangle index where two trimeshes meet along their edges.
   if (contact.triangle < 0 && dGeomGetClass(pair.barrier->geom()) == dTriMeshClass) {
     return pair.vehicle->envelope.isAboveBottom(pose, contact.place);
   }
@@ -157,7 +158,7 @@ bool isOurs(const OwnedPair& pair, const VehiclePose& pose, const dContactGeom& 
 
 bool Responder::claims(dGeomID a, dGeomID b) const {
   const OwnedPair pair = pairOf(*implementation_, a, b);
-  // A mesh that holds ground too is sorted out contact by contact.
+  // A mesh that holds ground too is decided contact by contact.
   if (!pair || !pair.barrier->hasWallsOnly()) return false;
   return pair.vehicle->envelope.allInBand(pair.vehicle->bodies.readPose(),
                                           pair.barrier->highestFoot(), pair.barrier->lowestTop());

@@ -8,7 +8,7 @@
 
 namespace bumper {
 
-/// What a vehicle takes up for walls: its outline, over the band. In the vehicle's own frame: axes
+/// The vehicle's volume for walls: its outline, over the band. In the vehicle's own frame: axes
 /// forward, left, up; origin at the mass centre.
 class Envelope {
  public:
@@ -23,7 +23,7 @@ class Envelope {
   [[nodiscard]] double middleHeight() const { return 0.5 * (low_ + high_); }
   /// Of a sphere around the mass centre that holds all of it, m.
   [[nodiscard]] double radius() const { return radius_; }
-  /// What the outline passes over in a step of `h` seconds if nothing stops it. `motion` is in the
+  /// The area swept by the outline in a step of `h` seconds of free motion. `motion` is in the
   /// vehicle's axes at the step's start.
   [[nodiscard]] PlanRectangle swept(const PlanarMotion& motion, double h) const;
 

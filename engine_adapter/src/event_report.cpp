@@ -10,7 +10,7 @@ namespace bumper {
 
 namespace {
 
-// A contact that begins more slowly than this, m/s, is rounding's.
+// A contact that begins more slowly than this, m/s, is rounding.
 constexpr double noticedSpeed = 1e-6;
 
 }  // namespace
@@ -82,8 +82,8 @@ void Responder::Implementation::reportImpact(Vehicle& vehicle, const Barrier& ba
   events.push_back(event);
 }
 
-// What the guard contacts did in the world's last step. It counts to the contact with the wall; the
-// rise of a load is told as an impact.
+// The guard contacts' loads in the world's last step. They are added to the contact with the wall;
+// the rise of a load is reported as an impact.
 void Responder::Implementation::reportLoads(Vehicle& vehicle) {
   const VehicleState& state = vehicle.reading.state;
   std::vector<SustainedContact>& contacts = vehicle.memory.contacts;

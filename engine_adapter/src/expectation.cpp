@@ -4,8 +4,8 @@ namespace bumper {
 
 namespace {
 
-// What acts on a vehicle in no impact besides the forces that are known before a step, at most:
-// tyres, motors.
+// Maximum accelerations of a vehicle without impact by forces not known before a step: tyres,
+// motors.
 constexpr double ordinaryAcceleration = 15.0;     // m/s²
 constexpr double ordinaryYawAcceleration = 15.0;  // rad/s²
 

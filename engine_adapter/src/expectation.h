@@ -5,11 +5,11 @@
 
 namespace bumper {
 
-/// What the coming step should lead to by the known forces and the impulse that is delivered, where
+/// The motion predicted for the coming step from the known forces and the impulse delivered, where
 /// joints act as well.
 Expectation expectationOf(const VehicleState& state, const PlanarImpulse& impulse, double h);
 
-/// Takes out of what is pending what joints have done of it already.
+/// Subtracts from the pending impulse what joints have applied of it already.
 void reconcile(const Expectation& expected, const VehicleState& state, ForcePulse& pulse);
 
 }  // namespace bumper

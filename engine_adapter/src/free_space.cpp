@@ -19,42 +19,42 @@ struct FreeSpace::Room {
 
 namespace {
 
-// How much more than now may act on a vehicle before one looks again.
+// Allowed increase of the loads on a vehicle before the next search.
 constexpr double moreForce = 4.0;
 constexpr double accelerationAllowance = 4.0;     // m/s²
 constexpr double yawAccelerationAllowance = 4.0;  // rad/s²
 constexpr double moreTurning = 1.5;
 constexpr double turningAllowance = 0.3;  // rad/s
 
-// By how much the world's gravity may change between two looks, m/s².
+// By how much the world's gravity may change between two searches, m/s².
 constexpr double gravityAllowance = 1000.0;
 
 // By how much the vehicle may lean over more than now, rad.
 constexpr double moreTilt = 0.05;
 
-// Mass and inertia are read when one looks. Until the next time they may change by a fifth.
+// Mass and inertia are read at each search. Until the next they may change by a fifth.
 constexpr double massChange = 1.2;
 constexpr int stepsBetweenLooks = 256;
 constexpr int stepsAfterFailure = 8;
 
-// The strip's length: what is passed in this time, s, within limits, m. A vehicle that is slower
-// than that, m/s, may go any way.
+// The corridor's length: the distance covered in this time, s, within limits, m. A vehicle slower
+// than this, m/s, may move in any direction.
 constexpr double timeAhead = 1.0;
 constexpr double leastAhead = 2.0;
 constexpr double leastBehind = 0.25;
 constexpr double mostAhead = 32.0;
 constexpr double slow = 1.0;
 
-// A strip that the vehicle leaves within so many steps is not worth the look.
+// A corridor that the vehicle leaves within so few steps is not worth a search.
 constexpr double fewestSteps = 4.0;
 
-// More than what rounds away, m.
+// More than rounding, m.
 constexpr double slack = 1e-5;
 
 double square(double value) { return value * value; }
 
-// How far from its line in the yaw plane a wall may be, m for each m of the band's height. What
-// leans further over does not count as a wall.
+// How far from its line in the yaw plane a wall may be, m for each m of the band's height. Faces
+// that lean further are not walls.
 double leanAsSeen(double wallLean, double tilt) {
   constexpr double most = 10.0;
   const double angle = std::atan(wallLean) + tilt;
@@ -93,7 +93,7 @@ void FreeSpace::allowMotion(const VehicleState& state, const Room& room) {
   turningWeight_ = 1.0 / square(moreTurning * std::sqrt(squaredNorm(turning_)) + turningAllowance);
 }
 
-// Whether the vehicle has that room; the strip is made shorter if that helps.
+// Whether the vehicle has such a corridor; it is shortened if that helps.
 bool FreeSpace::fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
                      const VehicleState& state, const Room& room, double gravity, double h) {
   allowMotion(state, room);
@@ -113,7 +113,8 @@ bool FreeSpace::fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
   const double bandHeight = envelope_.bandHeight();
   const double height = std::max(std::abs(envelope_.low()), std::abs(envelope_.high()));
 
-  // What the vehicle takes of the horizontal plane, with all that counts as near, and in the step.
+  // The vehicle's extent in the horizontal plane, with the guard distance and its motion in the
+  // step.
   const Eigen::Vector2d along(forwardX_, forwardY_);
   const Eigen::Vector2d across = turnedLeft(along);
   double front = 0.0;
@@ -124,7 +125,7 @@ bool FreeSpace::fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
     front = rear = side = std::hypot(std::max(zone, outline.radius() + way) + slack, height);
   } else {
     const double torques = count / std::sqrt(torqueWeight_);
-    // While the bodies move each for itself.
+    // While the bodies move separately.
     const double farthestArm = count > 1.0 ? 2.0 * arm : 0.0;
     const double yawAcceleration = massChange * (torques + farthestArm * forces) / state.yawInertia;
     const double turned =
@@ -176,7 +177,7 @@ bool FreeSpace::fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
 
 bool FreeSpace::find(const std::vector<std::unique_ptr<Barrier>>& barriers,
                      const VehicleState& state, double gravity, double h, int mostSteps) {
-  // The more room, the longer it lasts.
+  // A larger corridor is valid for longer.
   static constexpr std::array<Room, 5> rooms = {
       {{.anyHeading = true, .aside = 2.0, .turn = 0.0, .moreSpeed = 1.2, .speedAllowance = 1.0},
        {.anyHeading = true, .aside = 0.6, .turn = 0.0, .moreSpeed = 1.2, .speedAllowance = 1.0},
@@ -191,7 +192,7 @@ bool FreeSpace::find(const std::vector<std::unique_ptr<Barrier>>& barriers,
   leastUp_ = std::max(std::cos(std::acos(std::clamp(state.up().z(), -1.0, 1.0)) + moreTilt),
                       minUprightness_);
   const Eigen::Vector2d velocity = state.velocity.head<2>();
-  // Along the way it goes; the heading of one at rest.
+  // Along its velocity; along the heading if at rest.
   const Eigen::Vector2d way =
       velocity.norm() > slow ? velocity : Eigen::Vector2d(state.axes.col(0).head<2>());
   forwardX_ = way.x() / way.norm();

@@ -12,10 +12,11 @@
 
 namespace bumper {
 
-/// Room around a vehicle without any wall, and the motion for which it cannot come near one within
-/// a step: as long as the vehicle is in that room and no faster than that, its step is skipped.
+/// A region around a vehicle without any wall, and limits of motion within which it cannot come
+/// near one in a step: while the vehicle is in that region and within these limits, its step is
+/// skipped.
 ///
-/// The room is a corridor of the horizontal plane along the vehicle's way, wide enough for any
+/// The region is a corridor in the horizontal plane along the vehicle's path, wide enough for any
 /// heading or, between walls, for the heading that the vehicle has. It is found with the barriers'
 /// plans, and holds whatever the walls' heights.
 class FreeSpace {
@@ -24,16 +25,16 @@ class FreeSpace {
   FreeSpace(const VehicleBodies& bodies, const Envelope& envelope, double minUprightness);
 
   /// Whether the vehicle certainly touches no wall in the coming step of `h` seconds, and is not
-  /// near one as guardDistance() has it. A comparison of what its bodies are and do now;
-  /// false if in doubt.
+  /// within guardDistance() of one. Compares its bodies' current state with the limits; false if in
+  /// doubt.
   [[nodiscard]] bool holds(double h);
 
-  /// Looks for such room after leave(), and returns whether there is. `gravity` is the world's,
-  /// m/s²; what is found serves for no more than `mostSteps`.
+  /// Searches for such a region after leave(), and returns whether there is one. `gravity` is the
+  /// world's, m/s²; the result is valid for no more than `mostSteps`.
   bool find(const std::vector<std::unique_ptr<Barrier>>& barriers, const VehicleState& state,
             double gravity, double h, int mostSteps);
 
-  /// The vehicle was not in it: it has to be found anew.
+  /// The vehicle has left it: it has to be found anew.
   void leave() { step_ = 0.0; }
 
   /// Nothing is known: barriers have changed.
@@ -49,14 +50,14 @@ class FreeSpace {
     const dReal* velocity;
     const dReal* force;
     const dReal* torque;
-    double x = 0.0, y = 0.0, z = 0.0;  // where it is in the middle of the strip
+    double x = 0.0, y = 0.0, z = 0.0;  // its position in the middle of the corridor
     double forceWeight = 0.0;          // 1 over the square of the force that is allowed, 1/N²
   };
 
   // How far the vehicle may rise or sink, m.
   static constexpr double heightChange = 16.0;
 
-  /// How much room is looked for, and how much the motion may change in it.
+  /// The size of the corridor searched for, and the changes of motion allowed in it.
   struct Room;
 
   static double squaredNorm(const dReal* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; }
@@ -79,7 +80,7 @@ class FreeSpace {
   int stepsLeft_ = 0;
   int stepsUntilLook_ = 0;
 
-  // The strip: its direction, and by how much the vehicle may be away from its middle, m.
+  // The corridor: its direction, and how far the vehicle may be from its middle, m.
   double forwardX_ = 0.0;
   double forwardY_ = 0.0;
   double halfLength_ = 0.0;
@@ -88,14 +89,14 @@ class FreeSpace {
   // What is allowed: weights are 1 over squares.
   double leastUp_ = 1.0;                        // vertical part of the vehicle's up axis
   double speedWeight_ = 0.0;                    // of each body
-  bool anyHeading_ = false;                     // … if true, the rest is not asked
+  bool anyHeading_ = false;                     // … if true, the rest is not checked
   double leastTurn_ = 1.0;                      // cosine of half the rotation
   double turningWeight_ = 0.0;                  // of the chassis
   double torqueWeight_ = 0.0;                   // of each body
   dQuaternion heading_ = {1.0, 0.0, 0.0, 0.0};  // when the room was found
 };
 
-// Here, because it is all that most steps do. A number that is not finite fails its comparison.
+// Inline, because most steps do nothing else. A number that is not finite fails its comparison.
 inline bool FreeSpace::keepsWithin(const Body& body) const {
   const double x = body.position[0] - body.x;
   const double y = body.position[1] - body.y;

@@ -4,7 +4,7 @@
 
 namespace bumper {
 
-/// What ODE calls the class of a geom, with its article: "a sphere".
+/// ODE's name for the class of a geom, with its article: "a sphere".
 const char* classNameOf(dGeomID geom);
 
 }  // namespace bumper

@@ -9,15 +9,16 @@ namespace bumper {
 
 namespace {
 
-// Soft enough for a solver of redundant contacts, whatever the world's own is: 200 kN gives way by
+// Soft enough for a solver of redundant contacts, whatever the world's own is: 200 kN yields by
 // 0.02 mm/s.
 constexpr double constraintForceMixing = 1e-10;
 
-// Less friction than this is none: rows that can do nothing are trouble for dWorldStep.
+// Less friction than this is taken as none: constraint rows without effect are a problem for
+// dWorldStep.
 constexpr double leastFriction = 1e-3;
 
-// Two corners that reach a wall at the very same moment are a tie that dWorldStep's solver does not
-// get over: it gives up all forces of the step. So no two demands are quite the same, m/s.
+// When two corners reach a wall at exactly the same time, dWorldStep's solver fails and drops all
+// forces of the step. So no two speed limits are exactly equal, m/s.
 constexpr double mostDither = 1e-7;
 
 // In [0, 1), another for each step and each guard: the multiples of these two spread evenly, also

@@ -17,22 +17,21 @@ namespace bumper {
 /// among them. A contact that the application made for the coming step is such a joint.
 bool hasOuterJoint(const VehicleBodies& bodies);
 
-/// Whether such a joint leads to another body: it may wake them in the coming step, as may those
-/// that it hangs together with.
+/// Whether such a joint leads to another body: it may wake them in the coming step, as may other
+/// bodies of its island.
 bool hasJointWithBody(const VehicleBodies& bodies);
 
-/// A wall is near enough for a guard contact if the outline may come to it within a step of `h`
-/// seconds: by twice the speed that it has, or by that which a blow of others may give it, m/s.
+/// The distance, m, within which a wall gets guard contacts: what the outline may cover in a step
+/// of `h` seconds at twice its speed, m/s, or at that after a blow.
 inline double guardDistance(double speed, double h) {
   constexpr double afterBlow = 50.0;
   return h * std::max(2.0 * speed, afterBlow);
 }
 
-/// One vehicle's guard contacts. A force pulse is worked out for a vehicle that nothing else
-/// touches. Where joints act on it too, its guard contacts make the walls a part of the world's own
-/// solve: contact joints for one step, with the wall's own normal, that demand no more than that a
-/// point of the outline does not pass its wall within the step, whatever pushes. Where nothing does
-/// they have no effect.
+/// One vehicle's guard contacts. A force pulse is computed for a vehicle without other contacts.
+/// Where joints act on it too, its guard contacts make the walls a part of the world's own solve:
+/// contact joints for one step, with the wall's own normal, that only keep a point of the outline
+/// from passing its wall within the step, under any load. Without load they have no effect.
 class GuardContacts {
  public:
   struct Guard {
@@ -53,12 +52,12 @@ class GuardContacts {
            const Step& step);
   [[nodiscard]] bool isEmpty() const { return count_ == 0; }
 
-  /// What they did in the world's last step.
+  /// Their loads in the world's last step.
   [[nodiscard]] std::span<GuardLoad> loads();
-  /// As if these were what they did.
+  /// Replaces their loads.
   void setLoads(std::span<const GuardLoad> loads);
 
-  /// The joints are gone, or go on without telling what they do.
+  /// The joints are gone, or their loads are no longer read.
   void forget() { count_ = 0; }
   void release();
 

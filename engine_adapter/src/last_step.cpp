@@ -1,4 +1,4 @@
-// Whether the world stepped as it was asked to since the last step(), and what to do if not.
+// Checks that the world stepped as expected since the last step(), and corrects it if not.
 
 #include "ode_vectors.h"
 #include "pulse_delivery.h"

@@ -41,7 +41,7 @@ bool LentGeom::exists() const {
   const dGeomID watcher = dBodyGetFirstGeom(body_);
   if (watcher == nullptr) return false;
   dSpaceID space = dGeomGetSpace(watcher);
-  // A space that does not clean up has let go of both.
+  // A space that does not clean up has only detached both.
   if (space == nullptr) return true;
   for (; space != nullptr; space = dGeomGetSpace(asGeom(space))) {
     if (mayBeIn(space)) return true;
@@ -49,8 +49,8 @@ bool LentGeom::exists() const {
   return false;
 }
 
-// Compares addresses, for there may be nothing to read at its own; another geom at the same address
-// has other data.
+// Compares addresses, for its own may no longer be readable; another geom at the same address has
+// other data.
 bool LentGeom::mayBeIn(dSpaceID space) const {
   if (dSpaceGetClass(space) == dQuadTreeSpaceClass) return true;
   for (int i = 0; i < dSpaceGetNumGeoms(space); ++i) {

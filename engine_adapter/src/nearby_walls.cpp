@@ -10,13 +10,13 @@ namespace bumper {
 
 namespace {
 
-// How far the region goes beyond the reach, m: on all sides, and ahead by what the vehicle passes
-// in this time, s, but no further than that.
+// How far the region goes beyond the reach, m: on all sides, and ahead by the distance covered in
+// this time, s, up to a limit.
 constexpr double allAround = 1.0;
-constexpr double timeAhead = 0.2;
-constexpr double mostAhead = 6.0;
+constexpr double timeCovered = 0.2;
+constexpr double mostCovered = 6.0;
 
-// What is left of a wall that leans lies in the rectangle around its part in the band.
+// The section of a wall that leans lies in the rectangle around its part in the band.
 constexpr double aroundCorner = 1.4143;
 
 }  // namespace
@@ -36,11 +36,11 @@ void NearbyWalls::list(const Envelope& vehicle,
                        const VehicleState& state, double reach) {
   centre_ = state.massCentre;
   axes_ = state.axes;
-  // One that spins turns out of the region before it has passed through it.
+  // A spinning vehicle turns out of the region before it has crossed it.
   const double spin = std::abs(state.yawRate) * 1.5 * vehicle.radius();
-  const double time = std::min(timeAhead, allAround / std::max(spin, 1e-9));
+  const double time = std::min(timeCovered, allAround / std::max(spin, 1e-9));
   const double way =
-      std::clamp(time * state.axes.col(0).dot(state.velocity), -mostAhead, mostAhead);
+      std::clamp(time * state.axes.col(0).dot(state.velocity), -mostCovered, mostCovered);
   const double needed = reach + vehicle.bandHeight() + allAround;
   margins_ = {.front = needed + std::max(way, 0.0),
               .rear = needed + std::max(-way, 0.0),
@@ -65,7 +65,7 @@ void NearbyWalls::list(const Envelope& vehicle,
   isKnown_ = true;
 }
 
-// The number here of the surface that a barrier's wall has.
+// The local number of a barrier wall's surface.
 int NearbyWalls::surfaceNumber(const Barrier& barrier, int wall) {
   const Owner owner{.barrier = barrier.id(), .settings = barrier.settingsNumberOf(wall)};
   const auto known = std::find(owners_.begin(), owners_.end(), owner);
@@ -109,8 +109,8 @@ bool NearbyWalls::mayMeet(const Near& near, const Envelope& vehicle, const Vehic
   if (std::abs(x) > around.half.x() + near.radius) return false;
   if (std::abs(y) > around.half.y() + near.radius) return false;
   if (near.face.corners().empty()) return true;
-  // All of the rectangle on one side of the face's plane? Twice the band's height: what leans
-  // stands out from its line.
+  // All of the rectangle on one side of the face's plane? Twice the band's height: a leaning face
+  // projects from its line.
   const Eigen::Vector3d& normal = near.face.normal();
   const double normalX = state.axes.col(0).dot(normal);
   const double normalY = state.axes.col(1).dot(normal);

@@ -21,8 +21,8 @@ struct BarrierWall {
   int wall = 0;
 };
 
-/// The walls around one vehicle: ODE's collider lists them for a region, and the list serves until
-/// the vehicle may reach out of it.
+/// The walls around one vehicle: ODE's collider lists them for a region, and the list is valid
+/// until the vehicle may reach out of it.
 class NearbyWalls {
  public:
   NearbyWalls() {
@@ -32,10 +32,10 @@ class NearbyWalls {
     segments_.reserve(32);
   }
 
-  /// What is asked of the walls around a vehicle.
+  /// A query for the walls around a vehicle.
   struct Question {
-    PlanRectangle around;  ///< what the outline passes over in the step if it hits nothing, or more
-    double reach = 0.0;    ///< how far it may come, whatever it hits, m
+    PlanRectangle around;  ///< at least what the outline sweeps in the step if it hits nothing
+    double reach = 0.0;    ///< how far it may move, whatever it hits, m
     bool evenIfNoneIsThere = false;
   };
 
@@ -63,9 +63,9 @@ class NearbyWalls {
   [[nodiscard]] const ResponseSettings& settingsOf(int surface) const {
     return *surfaces_[static_cast<std::size_t>(surface)].settings;
   }
-  /// A long force pulse of that surface runs, which lets the vehicle in as deep as that, m.
+  /// A long force pulse of that surface runs, which allows this penetration, m.
   void enter(const Owner& owner, double depth);
-  /// Takes out that surface's segments.
+  /// Removes that surface's segments.
   void remove(const Owner& owner);
 
   /// A wall of the face with that number, until the next collect().
@@ -81,7 +81,7 @@ class NearbyWalls {
   struct Near {
     const Barrier* barrier = nullptr;
     WallTable::Stretch walls{};                        // of the face
-    WallFace face{};                                   // none for what is no triangle
+    WallFace face{};                                   // empty for planes and posts
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();  // of a ball around the face
     double radius = 0.0;
     int surface = 0;
@@ -106,7 +106,7 @@ class NearbyWalls {
   std::vector<Surface> surfaces_;
   std::vector<Owner> owners_;  // of the surfaces
   std::vector<Segment> segments_;
-  // Something was there in the last step: looking at all at once is then the shortest way.
+  // Walls were found in the last step: cutting all faces at once is then fastest.
   bool wasThere_ = false;
 };
 

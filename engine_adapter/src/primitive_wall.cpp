@@ -57,7 +57,7 @@ std::optional<Segment> PrimitiveWall::cut(const VehicleState& state, const Envel
   }
   const double planar = direction.head<2>().norm();
   wall.normal = direction.head<2>() / planar;
-  // The foremost line within the band.
+  // The nearest line within the band.
   const double offset =
       (direction.dot(place) - std::min(direction.z() * low, direction.z() * high)) / planar;
   if (-offset > reach) return std::nullopt;

@@ -19,7 +19,7 @@ class PrimitiveWall {
   /// `maxNormalUp` as in WallSelection.
   PrimitiveWall(dGeomID geom, double maxNormalUp);
 
-  /// Where a vehicle's yaw plane cuts it over the band, long enough for `beyond` the envelope, m;
+  /// Its section with a vehicle's yaw plane over the band, extended to `beyond` the envelope, m;
   /// nothing if it is further away than that.
   [[nodiscard]] std::optional<Segment> cut(const VehicleState& state, const Envelope& vehicle,
                                            double beyond) const;
@@ -28,8 +28,8 @@ class PrimitiveWall {
   /// up to `height` above or below one, m.
   [[nodiscard]] double clearanceAtLeast(const Eigen::Vector3d& place, double height) const;
 
-  /// How far along its middle line a strip is free, m, as WallPlan::freeUntil() says it:
-  /// within `height` above and below `z`.
+  /// How far along its middle line a strip is free, m, as in WallPlan::freeUntil(): within `height`
+  /// above and below `z`.
   [[nodiscard]] double freeUntil(const PlanStrip& strip, double z, double height) const;
 
   /// How far from the vertical it leans: m aside for each m up.

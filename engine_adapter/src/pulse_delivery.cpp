@@ -1,3 +1,6 @@
+// The impulse of one step becomes a force, or a change of velocity, of the bodies, and is recorded
+// to be compared with what the world makes of it.
+
 #include "pulse_delivery.h"
 
 #include <cmath>
@@ -8,10 +11,10 @@ namespace bumper {
 
 namespace {
 
-// More than what rounds in a sum of steps, relative.
+// More than the rounding of a sum of steps, relative.
 constexpr double sameSize = 1e-9;
 
-// Unknown forces that bend the way of several steps no further, m/s².
+// Maximum acceleration by unknown forces over several steps, m/s².
 constexpr double ordinaryAcceleration = 20.0;
 
 bool isClose(double a, double b) { return std::abs(a - b) <= sameSize * std::abs(b); }

@@ -7,7 +7,7 @@
 
 namespace bumper {
 
-/// How the world's last step treated what was delivered before it.
+/// What the world's last step did with the impulse delivered before it.
 enum class LastStep {
   as_told,      ///< or nothing was delivered
   not_taken,    ///< step() was called again
@@ -15,16 +15,16 @@ enum class LastStep {
   moved_since,  ///< the vehicle's motion is not that of these steps
 };
 
-/// What the world's steps since the delivery and the chassis' motion say. ODE moves a body by its
-/// new velocity times the step.
+/// Compares the delivery with the world's steps since and the chassis' motion. ODE moves a body by
+/// its new velocity times the step.
 LastStep lookBack(const LastDelivery& delivery, const VehicleBodies& bodies,
                   const WorldSteps& steps);
 
-/// Hands the impulse of the coming step to the bodies, if there is one, and remembers it.
+/// Applies the impulse of the coming step to the bodies, if there is one, and records it.
 void deliver(const VehicleBodies& bodies, const VehicleState& state, const PlanarImpulse& impulse,
              double h, Delivery how, LastDelivery& delivery);
 
-/// Takes back what was delivered and the world has not stepped with.
+/// Reverses a delivery with which the world has not stepped.
 void takeBack(const VehicleBodies& bodies, Delivery how, const LastDelivery& delivery);
 
 }  // namespace bumper

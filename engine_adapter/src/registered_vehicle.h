@@ -13,8 +13,7 @@
 
 namespace bumper {
 
-/// A registered vehicle: what it is, what is known of its surroundings, and what is remembered of
-/// it from step to step.
+/// A registered vehicle: its data, its surroundings, and its state kept from step to step.
 struct Vehicle {
   Vehicle(VehicleId id, const VehicleParameters& itsParameters, const Band& band, double tiltLimit,
           std::string itsName, VehicleBodies itsBodies)
@@ -26,14 +25,14 @@ struct Vehicle {
         freeSpace(bodies, envelope, minUprightness) {
     for (VehicleMemory* each : {&memory, &memoryBefore}) {
       each->vehicle = id;
-      each->passages.reserve(4);
+      each->passable.reserve(4);
       each->contacts.reserve(4);
     }
   }
 
-  /// What is read of it before anything is solved in a step.
+  /// Its state as read before anything is solved in a step.
   struct Reading {
-    /// The rest is of no meaning otherwise: it is left alone, or certainly away from all walls.
+    /// If false the rest is meaningless: it is left alone, or certainly away from all walls.
     bool takesPart = false;
     VehicleState state;
     /// In its own axes, as it would be in this step without walls.
@@ -58,8 +57,8 @@ struct Vehicle {
   /// False also where the rotation is not finite.
   [[nodiscard]] bool isUpright() const { return uprightness(bodies.chassis()) >= minUprightness; }
 
-  /// What the law works with: the outline as given, mass and inertia as the bodies had them when
-  /// they were read.
+  /// The parameters for the law: the outline as given, mass and inertia of the bodies when last
+  /// read.
   [[nodiscard]] VehicleParameters parametersNow() const {
     VehicleParameters result = parameters;
     result.mass = reading.state.mass;

@@ -13,7 +13,7 @@ namespace bumper {
 
 namespace {
 
-// How far the bodies' own mass and yaw inertia may lie from the parameters.
+// Tolerances of the bodies' own mass and yaw inertia against the parameters.
 constexpr double massTolerance = 0.01;
 constexpr double inertiaTolerance = 0.05;
 
@@ -181,7 +181,7 @@ void Responder::updateBarrier(BarrierId barrier, const Scene& scene) {
                 "' was destroyed: remove the barrier and add it anew");
   }
   BarrierOptions options = old.options();
-  // The space that it was put into may be gone by now, and the geom in another.
+  // Its original space may be destroyed by now, and the geom in another.
   if (options.space != nullptr) options.space = dGeomGetSpace(lent->address());
   update(*implementation_, old, options, scene);
 }
@@ -262,7 +262,7 @@ void Responder::removeBarrier(BarrierId barrier) {
     if (vehicle == nullptr) continue;
     for (VehicleMemory* memory : {&vehicle->memory, &vehicle->memoryBefore}) {
       const auto isOfIt = [&](const auto& each) { return each.barrier == barrier; };
-      std::erase_if(memory->passages, isOfIt);
+      std::erase_if(memory->passable, isOfIt);
       std::erase_if(memory->contacts, isOfIt);
     }
     for (GuardLoad& load : vehicle->guards.loads()) {
@@ -333,11 +333,11 @@ void Responder::restore(const SavedState& state) {
   }
   for (const VehicleMemory& memory : state.vehicles) {
     registered(self.vehicles, memory.vehicle.value, "vehicle");
-    for (const Passage& passage : memory.passages) {
-      const Barrier& barrier = registered(self.barriers, passage.barrier.value, "barrier");
-      if (passage.settings < 0 || passage.settings >= barrier.settingsCount()) {
+    for (const PassableSurface& surface : memory.passable) {
+      const Barrier& barrier = registered(self.barriers, surface.barrier.value, "barrier");
+      if (surface.settings < 0 || surface.settings >= barrier.settingsCount()) {
         throw Error("restore: barrier '" + barrier.name() + "' has no settings number " +
-                    std::to_string(passage.settings));
+                    std::to_string(surface.settings));
       }
     }
     for (const SustainedContact& contact : memory.contacts) {

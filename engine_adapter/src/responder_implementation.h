@@ -47,12 +47,12 @@ struct Responder::Implementation {
   CollisionStep collision;
   std::vector<Vehicle*> active;  // a place for every vehicle
 
-  /// What is known of the surroundings of vehicles is no longer true.
+  /// Invalidates the known surroundings of vehicles.
   void forgetSurroundings();
 
   /// The step of those vehicles that are not certainly away from all walls.
   void stepAll(std::span<Vehicle* const> some, double h);
-  /// Puts right what the world's last step did not do as it was asked to.
+  /// Corrects deliveries that the world's last step did not carry out as expected.
   void checkLastStep(std::span<Vehicle* const> some);
   void read(Vehicle& vehicle, double h);
   void collectWalls(Vehicle& vehicle, double h);
@@ -60,8 +60,8 @@ struct Responder::Implementation {
   void addGuards(Vehicle& vehicle, const PlanarMotion& after, double h);
   void deliver(Vehicle& vehicle, double h);
 
-  /// Leaves out of the walls nearby what the vehicle passes through.
-  void applyPassages(Vehicle& vehicle) const;
+  /// Excludes from the walls nearby those that the vehicle passes through.
+  void applyPassableSurfaces(Vehicle& vehicle) const;
 
   [[nodiscard]] static ImpactEvent eventAt(const Vehicle& vehicle, const Barrier& barrier, int wall,
                                            const Eigen::Vector3d& contact,

@@ -1,6 +1,6 @@
 // One step, in three passes over the vehicles that may touch something: all are read, islands are
-// solved, and what they got is delivered. No vehicle is pushed before all have been read. Vehicles
-// do not answer each other, so that an island is one of them among fixed walls.
+// solved, and the impulses are delivered. No force is added before all vehicles have been read.
+// Vehicles do not collide with each other here, so an island is one vehicle among fixed walls.
 
 #include <algorithm>
 #include <cmath>
@@ -86,7 +86,7 @@ void Responder::Implementation::stepAll(std::span<Vehicle* const> some, double h
   if (clock && anyDelivered) clock->start();
 }
 
-// Reads a vehicle's bodies, settles what the last step left, and finds the walls near it.
+// Reads a vehicle's bodies, reconciles the last step's pulse, and finds the walls near it.
 void Responder::Implementation::read(Vehicle& vehicle, double h) {
   VehicleMemory& memory = vehicle.memory;
   vehicle.reading.takesPart = false;
@@ -114,7 +114,7 @@ void Responder::Implementation::read(Vehicle& vehicle, double h) {
 
   const bool isUpright = vehicle.isUpright();
   const bool remembersWalls =
-      delivering || mayHaveEnded(memory.contacts, time) || !memory.passages.empty();
+      delivering || mayHaveEnded(memory.contacts, time) || !memory.passable.empty();
   if (isUpright && options.skipping && !remembersWalls &&
       vehicle.freeSpace.find(barriers, state, gravityOf(world), h,
                              stepsUntilEnd(memory.contacts, time, h))) {
@@ -131,7 +131,7 @@ void Responder::Implementation::read(Vehicle& vehicle, double h) {
   }
   if (mayHaveEnded(memory.contacts, time)) reportEndedContacts(vehicle);
   if (!delivering) vehicle.memoryBefore = memory;
-  applyPassages(vehicle);
+  applyPassableSurfaces(vehicle);
 }
 
 void Responder::Implementation::collectWalls(Vehicle& vehicle, double h) {
@@ -142,7 +142,7 @@ void Responder::Implementation::collectWalls(Vehicle& vehicle, double h) {
       .around = vehicle.envelope.swept(motion, h),
       .reach = CollisionStep::reach(vehicle.parametersNow(), motion, longestPenetrationTime, h),
       .evenIfNoneIsThere =
-          !options.skipping || mayHaveEnded(memory.contacts, time) || !memory.passages.empty()};
+          !options.skipping || mayHaveEnded(memory.contacts, time) || !memory.passable.empty()};
   if (vehicle.reading.isHeld && options.guardContacts) {
     const double near = guardDistance(motion.velocity.norm(), h);
     question.around = hull(question.around, vehicle.envelope.outline().enlarged(near));
@@ -151,7 +151,7 @@ void Responder::Implementation::collectWalls(Vehicle& vehicle, double h) {
   vehicle.nearby.collect(vehicle.envelope, barriers, vehicle.reading.state, question);
 }
 
-// What the walls do to a vehicle goes into its force pulse and into events.
+// Adds the walls' impulses on a vehicle to its force pulse and to the events.
 void Responder::Implementation::solve(Vehicle& vehicle, double h) {
   const CollisionStep::Walls walls = vehicle.nearby.all();
   if (walls.segments.empty()) return;
@@ -169,7 +169,7 @@ void Responder::Implementation::solve(Vehicle& vehicle, double h) {
     const double contactTime = barrier.settings(number).contactTime;
     if (contactTime > 0.0) {
       pulse.addLong(each.response.impulse, each.time, contactTime);
-      vehicle.memory.passages.push_back(
+      vehicle.memory.passable.push_back(
           {.barrier = barrier.id(),
            .settings = number,
            .until = time + each.time + contactTime,
@@ -178,7 +178,7 @@ void Responder::Implementation::solve(Vehicle& vehicle, double h) {
       pulse.add(each.response.impulse, each.time, h);
     }
     if (each.response.brokeThrough) {
-      vehicle.memory.passages.push_back({.barrier = barrier.id(), .settings = number});
+      vehicle.memory.passable.push_back({.barrier = barrier.id(), .settings = number});
     }
     reportImpact(vehicle, barrier, hit.wall, each);
   }
@@ -188,8 +188,7 @@ void Responder::Implementation::solve(Vehicle& vehicle, double h) {
 // For the walls that were solved last; `after` is the motion as their impacts leave it.
 void Responder::Implementation::addGuards(Vehicle& vehicle, const PlanarMotion& after, double h) {
   const PlanarMotion& motion = vehicle.reading.motion;
-  // What is near at the step's end was near at its start, so that it does not matter whether what
-  // is further away was looked at.
+  // A wall near at the step's end was near at its start, so that those further away do not matter.
   const double speed = motion.velocity.norm();
   const double way = h * (speed + std::abs(motion.yawRate) * vehicle.envelope.outline().radius());
   const double near = guardDistance(speed, h);
@@ -213,8 +212,8 @@ void Responder::Implementation::addGuards(Vehicle& vehicle, const PlanarMotion& 
   }
 }
 
-// Hands over what of the force pulse falls into the coming step. With guards alone there is nothing
-// to hand over, but the world's step is watched as well.
+// Delivers the part of the force pulse in the coming step. With guards alone there is nothing to
+// deliver, but the world's step is measured as well.
 void Responder::Implementation::deliver(Vehicle& vehicle, double h) {
   VehicleMemory& memory = vehicle.memory;
   if (memory.pulse.isEmpty() && vehicle.guards.isEmpty()) return;

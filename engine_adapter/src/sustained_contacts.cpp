@@ -31,7 +31,7 @@ bool mayHaveEnded(const std::vector<SustainedContact>& contacts, double time) {
 int stepsUntilEnd(const std::vector<SustainedContact>& contacts, double time, double h) {
   double steps = std::numeric_limits<int>::max();
   for (const SustainedContact& each : contacts) {
-    // One less, for what rounds in the sum of steps.
+    // One less, for rounding in the sum of steps.
     steps = std::min(steps, std::floor((each.last + contactPause - time) / h) - 1.0);
   }
   return static_cast<int>(std::max(steps, 0.0));

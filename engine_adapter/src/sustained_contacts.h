@@ -15,7 +15,7 @@ inline constexpr double contactDistance = 0.02;
 /// While a contact lasts, an impulse is an impact of its own above this many rest speeds.
 inline constexpr double impactInContact = 5.0;
 
-/// One impulse on a vehicle, as far as a contact counts it.
+/// One impulse on a vehicle, for the sums of a contact.
 struct ContactShare {
   BarrierId barrier;
   int wall = 0;
@@ -45,7 +45,7 @@ bool addToContact(std::vector<SustainedContact>& contacts, const ContactShare& s
 void fadeLoads(std::vector<SustainedContact>& contacts, double step);
 
 /// A load, N, on a barrier that the vehicle is in contact with. Returns whether it is at least
-/// twice what there was of late: a blow, where a load that stays is none.
+/// twice the recent maximum: a blow, not a steady load.
 bool raiseLoad(std::vector<SustainedContact>& contacts, BarrierId barrier, double load);
 
 }  // namespace bumper

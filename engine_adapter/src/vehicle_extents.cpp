@@ -59,13 +59,13 @@ struct ConvexShape {
         atNearLast = atLean(nearLast);
       }
     }
-    // Upright is where it ends if nothing of it is out of the heights.
+    // It ends upright if all of it is within the heights.
     return std::min({atNearFirst, atNearLast, atLean(0.0)});
   }
 };
 
-// The corners of a convex, which ODE keeps for itself, but a plane that cuts it gets a contact at
-// each of those beneath: once from either side.
+// The corners of a convex, which ODE does not expose: a plane through it gets a contact at each
+// corner beneath, so it is cut once from either side.
 std::vector<Eigen::Vector3d> cornersOf(dGeomID convex) {
   constexpr std::size_t most = 0xffff;  // contacts that dCollide can give
   dReal box[6];
@@ -88,7 +88,7 @@ std::vector<Eigen::Vector3d> cornersOf(dGeomID convex) {
   return corners;
 }
 
-// ODE would rather have offsets, but there are applications that use transforms.
+// ODE recommends offsets, but applications still use transforms.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"
 dGeomID geomIn(dGeomID transform) { return dGeomTransformGetGeom(transform); }
@@ -98,7 +98,7 @@ class Measurement {
  public:
   explicit Measurement(const Heights& heights) : heights_(heights) {}
 
-  /// `frame` leads from the frame in which the geom says where it is to the vehicle's.
+  /// `frame` transforms from the frame of the geom's own pose to the vehicle's.
   void add(dGeomID geom, const Eigen::Isometry3d& frame, bool isInTransform = false) {
     const int kind = dGeomGetClass(geom);
     if (kind == dTriMeshClass) {

@@ -27,14 +27,14 @@ struct Heights {
   double high = std::numeric_limits<double>::infinity();
 };
 
-/// What the geoms on these bodies take up within some heights; nothing if none is there. `pose` is
+/// The extents of the geoms on these bodies within `heights`; nothing if none is there. `pose` is
 /// the vehicle's, of which the bodies may be a part.
 ///
 /// Exact for boxes, spheres, capsules, cylinders, convexes and, in ODE's single precision,
-/// trimeshes, all as they lie now, and for what a geom transform makes of one; not for a convex in
-/// a geom transform. That one is left out, as are heightfields and classes of the application's
-/// own, whose shape ODE does not tell, and rays and geoms without category and collide bits, which
-/// hit nothing.
+/// trimeshes, all as they lie now, and for one in a geom transform; not for a convex in a geom
+/// transform. That one is left out, as are heightfields and classes of the application's own, whose
+/// shape ODE does not expose, and rays and geoms without category and collide bits, which hit
+/// nothing.
 std::optional<VehicleExtents> extentsOf(std::span<const dBodyID> bodies, const VehiclePose& pose,
                                         const Heights& heights = {});
 

@@ -13,14 +13,14 @@ namespace bumper {
 
 namespace {
 
-// How far a geom may stand out of the outline, m: less is the rounding of somebody's figures.
+// How far a geom may project from the outline, m: less is rounding of the given dimensions.
 constexpr double outlineSlack = 0.01;
 
 // How far geoms may reach below the ground, m: wheels hang lower before the car stands on them.
 constexpr double droop = 0.15;
 
-// Gravity that leans less, m aside for each m down, is a slope that somebody models.
-constexpr double slope = 0.1;
+// Gravity that leans less, m aside for each m down, may model a slope.
+constexpr double modelledSlope = 0.1;
 
 std::string metres(double length) {
   char text[32];
@@ -39,7 +39,7 @@ void warnOfLosses(dBodyID body, const std::string& vehicle, std::vector<std::str
   }
 }
 
-// A wheel on a joint that is not linked hangs on the chassis as dead weight that no law knows of.
+// A wheel on a joint that is not linked adds mass that the law does not include.
 void warnOfStrangers(dBodyID body, std::span<const dBodyID> bodies, const std::string& vehicle,
                      std::vector<std::string>& warnings) {
   for (int i = 0; i < dBodyGetNumJoints(body); ++i) {
@@ -130,7 +130,7 @@ std::vector<std::string> warningsOf(const VehicleBodies& bodies,
 std::optional<std::string> warningOf(dWorldID world) {
   dVector3 gravity;
   dWorldGetGravity(world, gravity);
-  if (std::hypot(gravity[0], gravity[1]) <= -slope * gravity[2]) return std::nullopt;
+  if (std::hypot(gravity[0], gravity[1]) <= -modelledSlope * gravity[2]) return std::nullopt;
   std::ostringstream text;
   text << "the world's gravity is (" << gravity[0] << ", " << gravity[1] << ", " << gravity[2]
        << ") m/s², not along -z: for Bumper up is z, in the world and in every vehicle";

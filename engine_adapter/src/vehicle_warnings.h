@@ -11,12 +11,12 @@
 
 namespace bumper {
 
-/// What about a vehicle would falsify its impulses or let it go into walls, a sentence each.
+/// What would falsify a vehicle's impulses or let it penetrate walls, a sentence each.
 std::vector<std::string> warningsOf(const VehicleBodies& bodies,
                                     const VehicleParameters& parameters, const Band& band,
                                     const std::string& name);
 
-/// Whether the world's gravity says that up is not along z.
+/// A warning if the world's gravity is not along −z.
 std::optional<std::string> warningOf(dWorldID world);
 
 }  // namespace bumper

@@ -9,9 +9,9 @@
 
 namespace bumper {
 
-/// The part of a face over a vehicle's band, laid into its yaw plane; nothing if there is none. Of
-/// a face that leans the line is the foremost, as seen from the mass centre. The segment is without
-/// id, surface and `solid`.
+/// The part of a face over a vehicle's band, projected into its yaw plane; nothing if there is
+/// none. Of a face that leans, the line nearest to the mass centre. The segment is without id,
+/// surface and `solid`.
 std::optional<Segment> cutFace(const WallFace& face, const VehicleState& state,
                                const Envelope& vehicle);
 

@@ -65,7 +65,7 @@ bool WallFace::addCorner(const Eigen::Vector3d& corner, std::size_t side) {
     ++count;
   };
   for (std::size_t k = 0; k < count_; ++k) {
-    // The side's ends are none any more where the outline goes straight on.
+    // The side's ends are no longer corners where the outline is straight.
     const bool isStart = k == side;
     const bool isEnd = k == (side + 1) % count_;
     const bool goesStraightOn = (isStart && atStart <= tolerance) || (isEnd && atEnd <= tolerance);

@@ -11,7 +11,7 @@ namespace bumper {
 
 /// Walls in one plane that together are a convex polygon, no longer than the first of them: the two
 /// triangles of a panel, or of panels above one another. Not those beside it: a vehicle that leans
-/// meets each piece where that comes closest, and a longer one comes closer somewhere else.
+/// touches each piece at its nearest point, and a longer piece has a nearer one elsewhere.
 class WallFace {
  public:
   /// Of no wall.

@@ -6,7 +6,7 @@ namespace bumper {
 
 namespace {
 
-// Margins grow by `more` for what the collider's single precision may lose.
+// Margins grow by `more` for the collider's single precision.
 void placeBox(dGeomID box, const Envelope& vehicle, const VehicleState& state,
               const WallQuery::Margins& margins, double more) {
   const Outline& outline = vehicle.outline();

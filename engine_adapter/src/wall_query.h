@@ -10,7 +10,7 @@
 
 namespace bumper {
 
-/// Asks ODE's trimesh collider which walls are near a vehicle's envelope.
+/// Queries ODE's trimesh collider for the walls near a vehicle's envelope.
 class WallQuery {
  public:
   WallQuery();

@@ -18,10 +18,9 @@ namespace bumper {
 float roundedDown(double value);
 float roundedUp(double value);
 
-/// Walls in little memory, and which of them make one face. Corners that are the same are stored
+/// A compact table of walls, and which of them make one face. Corners that are the same are stored
 /// once, in double precision around a local origin, and are what ODE's trimesh is built on; foot
-/// and top are kept in single precision, rounded away from the wall. A wall is put together when it
-/// is asked for.
+/// and top are kept in single precision, rounded away from the wall. A wall is assembled on access.
 class WallTable {
  public:
   WallTable() = default;

@@ -6,8 +6,8 @@
 
 namespace bumper {
 
-/// What set-up calls noticed, each said once of each owner: the vehicle or barrier that it is
-/// about. Null owns what is about the world.
+/// Warnings of set-up calls, each given once for each owner: the vehicle or barrier concerned. The
+/// owner is null for those about the world.
 class Warnings {
  public:
   void add(const void* owner, std::string text);

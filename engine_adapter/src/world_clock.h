@@ -10,10 +10,9 @@ struct WorldSteps {
   double first = 0.0;  ///< s, of the first: the forces added before act in that one only
 };
 
-/// Tells what the world's steps were, which ODE itself does not: by a body of its own, which
-/// nothing touches, without gravity and damping. It moves at 1 m/s, so its way is the time; and a
-/// force of 1 N on its 1 kg, which ODE clears after one step, makes its speed aside that step's
-/// size.
+/// Measures the world's steps, which ODE does not record, by a body of its own without contacts,
+/// gravity and damping. It moves at 1 m/s, so its distance is the time; and a force of 1 N on its 1
+/// kg, which ODE clears after one step, makes its lateral speed that step's size.
 class WorldClock {
  public:
   explicit WorldClock(dWorldID world);
@@ -34,7 +33,7 @@ class WorldClock {
 
  private:
   dBodyID body_;
-  // ODE takes it from the body when that goes with its world.
+  // ODE detaches it from the body when that is destroyed with its world.
   dGeomID marker_;
   bool running_ = false;
 };

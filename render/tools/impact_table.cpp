@@ -4,15 +4,14 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <numbers>
 #include <string>
 #include <vector>
+
+#include "bumper/render/degrees.h"
 
 namespace bumper::tools {
 
 namespace {
-
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 // Which end and side of the car was hit.
 std::string placeOf(const Vector2& arm, const VehicleParameters& car) {

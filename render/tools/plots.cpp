@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <span>
 #include <sstream>
 #include <string>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "bumper/base/child_process.h"
+#include "bumper/render/degrees.h"
 #include "bumper/response/contact_point.h"
 #include "bumper/response/error.h"
 #include "bumper/scenes/walls.h"
@@ -20,8 +20,6 @@
 namespace bumper::tools {
 
 namespace {
-
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 constexpr const char* plotterName = "gnuplot";
 

@@ -1,3 +1,5 @@
+// One vehicle, one step: an encounter of its outline with the walls nearby, or the paper's step.
+
 #include "bumper/response/collision_step.h"
 
 #include <cmath>

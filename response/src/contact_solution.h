@@ -4,7 +4,7 @@
 
 namespace bumper {
 
-/// The sign of friction on a contact that slips so.
+/// The sign of friction for a slip velocity.
 double againstSlip(double slip);
 
 /// J_n for a normal velocity after of −e v_n when J_t = ratio · J_n (Eq. 17 with a signed μ).

@@ -71,8 +71,8 @@ ContactSolution along(const Direction& d, double impulse, const ContactMobility&
   return contact;
 }
 
-// The impulse along d, unless it would turn the slip round: then the clamp of the restitution law
-// answers for the same normal velocity.
+// The impulse along d, unless it would reverse the slip: then the clamp of the restitution law
+// applies for the same normal velocity.
 EnergySolution withoutDragging(const Direction& d, double impulse, EnergyOutcome outcome,
                                const ContactMobility& mobility, const ContactVelocity& before,
                                const EnergyDemand& demand) {
@@ -80,7 +80,7 @@ EnergySolution withoutDragging(const Direction& d, double impulse, EnergyOutcome
   const bool turned = contact.regime == Regime::reverse_slip || before.tangent == 0.0;
   if (!turned) return finish(contact, demand, outcome);
   const Friction friction{.kind = Friction::Kind::coulomb, .value = demand.friction};
-  // Going on through the wall is a negative restitution, which the public law does not know.
+  // Going on through the wall is a negative restitution, which the public law does not support.
   const ContactSolution capped =
       contact.restitution < 0.0
           ? solveForNormalVelocity(mobility, before, contact.restitution, friction)
@@ -101,7 +101,7 @@ EnergySolution rebound(const Direction& d, const EnergyRoots& roots,
   if (allowed != leaving) {
     if (roots.real) outcome = EnergyOutcome::limited_by_restitution;
     if (d.normalGain <= 0.0) {
-      // Full friction would pull the vehicle in; such a slip always turns round first.
+      // Full friction would pull the vehicle in; such a slip always reverses first.
       return finish(solveRestitution(mobility, before, allowed / approach,
                                      {.kind = Friction::Kind::coulomb, .value = demand.friction}),
                     demand, outcome);

@@ -1,3 +1,6 @@
+// One impact of a vehicle on a wall or another body: curves are read at the angle of attack, a law
+// gives the impulse, and the impulse the motions after it.
+
 #include "bumper/response/impact.h"
 
 #include <algorithm>
@@ -22,7 +25,7 @@ ContactSolution answerByRestitution(const ContactMobility& mobility,
              : solveRestitution(mobility, velocity, restitution, friction);
 }
 
-// What is known of an impact before anything answers it.
+// The data of an impact before its response.
 ImpactResponse before(const PlanarBody& vehicle, const PlanarBody& other,
                       const ContactVelocity& velocity) {
   ImpactResponse response;
@@ -32,7 +35,7 @@ ImpactResponse before(const PlanarBody& vehicle, const PlanarBody& other,
   return response;
 }
 
-// Lets an impulse act on the vehicle, and its opposite on the other body.
+// Applies an impulse to the vehicle, and its opposite to the other body.
 void apply(ImpactResponse& response, const Impact& impact, PlanarBody vehicle, PlanarBody other,
            const PlanarImpulse& impulse) {
   const double energyBefore = vehicle.energy() + other.energy();
@@ -46,7 +49,7 @@ void apply(ImpactResponse& response, const Impact& impact, PlanarBody vehicle, P
   }
 }
 
-// The vehicle's motion as the other body sees it: what it would be if that stood still.
+// The vehicle's motion relative to the other body.
 PlanarMotion relativeMotion(const Impact& impact, const PlanarBody& vehicle,
                             const PlanarBody& other) {
   PlanarMotion relative = vehicle.motion;

@@ -8,8 +8,8 @@
 
 namespace bumper {
 
-/// The paper's step: of the walls that the outline overlaps where the step begins, the one that was
-/// touched the longest time ago is answered, once, at the middle of the overlap as it is.
+/// The paper's step: of the walls that the outline overlaps where the step begins, the one touched
+/// the longest time ago is resolved, once, at the middle of the overlap as found.
 class PaperStep {
  public:
   PaperStep() = default;

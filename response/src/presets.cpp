@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> names = {"paper", "macmillan", "modern_car",
                                                    "reconstruction"};
-constexpr std::array<ResponseSettings (*)(), names.size()> settings = {
+constexpr std::array<ResponseSettings (*)(), names.size()> makers = {
     paperSettings, macmillanSettings, modernCarSettings, reconstructionSettings};
 
 }  // namespace
@@ -45,7 +45,7 @@ std::span<const std::string_view> presetNames() { return names; }
 std::optional<ResponseSettings> findPreset(std::string_view name) {
   const auto* const found = std::ranges::find(names, name);
   if (found == names.end()) return std::nullopt;
-  return settings[static_cast<std::size_t>(found - names.begin())]();
+  return makers[static_cast<std::size_t>(found - names.begin())]();
 }
 
 }  // namespace bumper

@@ -8,7 +8,7 @@ namespace bumper {
 
 namespace {
 
-// A gain that rounding alone can make of an impact that neither takes nor gives energy.
+// An energy gain that rounding alone can cause in an elastic impact.
 constexpr double energyRounding = 1e-13;
 
 bool createsEnergy(const ContactSolution& solution, const ContactVelocity& before) {
@@ -30,7 +30,7 @@ ContactSolution solveRestitution(const ContactMobility& mobility, const ContactV
   if (!createsEnergy(solution, before)) return solution;
 
   // Without restitution an impact with capped friction only loses energy; find the largest
-  // restitution that still does. Each halving is exact to keep: 60 of them reach rounding.
+  // restitution that still does. 60 bisections reach rounding.
   double safe = 0.0;
   double tooMuch = restitution;
   solution = solveForNormalVelocity(mobility, before, safe, friction);

@@ -9,7 +9,7 @@
 
 namespace bumper {
 
-/// The side over which the places, in the vehicle's frame, stand out most; negative: they are
+/// The side with the largest distance of the points, in the vehicle's frame, beyond it; negative:
 /// inside.
 struct Separation {
   std::size_t side = 0;

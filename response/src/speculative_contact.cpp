@@ -10,10 +10,11 @@ namespace bumper {
 
 namespace {
 
-// By which a point may pass its wall, m: more than what rounds in a free motion.
+// Allowed penetration of a point, m: more than the rounding of a free motion.
 constexpr double allowance = 1e-6;
 
-// A corner that slides along a wall in a free motion may be so deep in it when the step is over, m.
+// A corner that slides along a wall in a free motion may penetrate it this deep at the step's end,
+// m.
 constexpr double slidingCorner = 1e-4;
 
 constexpr std::size_t thirds = 3;
@@ -77,7 +78,7 @@ void SpeculativeContacts::addEnd(const Segment& wall, const Vector2& wallEnd, do
     const OutlineSide& side = sides[i];
     const double distance = distanceTo(side);
     const double gap = distance - wall.radius;
-    // What is in the outline came in over the nearest side.
+    // A point inside the outline entered through the nearest side.
     const double deepest = distance == nearest ? depth + slidingDepth : 0.0;
     if (gap < -deepest || gap > distance_) continue;
     const double along = turnedLeft(side.out).dot(place);
@@ -113,7 +114,7 @@ void SpeculativeContacts::addWall(const Segment& wall, const Overlap* touch, dou
     }
   }
   if (touch != nullptr && touch->byEnd) {
-    // Wherever on the outline it is when the step is over.
+    // Wherever on the outline it is at the step's end.
     add(4 + 4 * thirds,
         {.wall = wall.id,
          .surface = wall.surface,

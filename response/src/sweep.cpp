@@ -10,10 +10,10 @@ namespace bumper {
 
 namespace {
 
-// Points that touch and part more slowly than this, m/s, slide over each other.
+// Points in contact that separate more slowly than this, m/s, slide.
 constexpr double slidingSpeed = 1e-3;
 
-// Bounds the work where two points part and meet again and again.
+// Bounds the work where two points separate and touch repeatedly.
 constexpr int maxLooks = 200;
 
 // A distance between two points along a direction, and how fast it changes, m/s.
@@ -25,7 +25,7 @@ struct Gap {
   [[nodiscard]] bool counts() const { return aside <= 0.0; }
 };
 
-// The motion, and what many looks at it have in common.
+// The motion, and values shared by all evaluations.
 struct Flight {
   const PlanarMotion& motion;
   double speed;     // of the mass centre
@@ -38,8 +38,8 @@ struct Flight {
   }
 };
 
-// The first time at which a gap closes. Conservative advancement: `speed` bounds its rate,
-// `acceleration` the rate's own rate, so that nothing between two looks can be missed.
+// The first time at which a gap closes. Conservative advancement: `speed` bounds its rate and
+// `acceleration` its acceleration, so that no touch between two evaluations is missed.
 template <typename GapOf>
 double firstClosed(const Flight& flight, const GapOf& gapOf, double speed, double acceleration,
                    double until) {
@@ -50,7 +50,7 @@ double firstClosed(const Flight& flight, const GapOf& gapOf, double speed, doubl
   if (gap.distance > speed * (until - from)) return never;
   double time = from;
   for (int look = 0; look < maxLooks; ++look) {
-    // Before they touch they have to be opposite each other, and neither apart nor in each other.
+    // Before they touch they have to be opposite each other, neither apart nor overlapping.
     double wait = std::max(gap.aside, 0.0) / speed;
     if (gap.distance > closed) {
       wait = std::max(wait, leastTime(gap.distance, -gap.rate, acceleration));
@@ -59,17 +59,17 @@ double firstClosed(const Flight& flight, const GapOf& gapOf, double speed, doubl
     } else if (!gap.counts()) {
       wait = std::max(wait, shortest);
     } else if (gap.rate < -restTolerance) {
-      // The last look came short by rounding's worth.
+      // The last advance fell short by rounding.
       return std::clamp(time - gap.distance / gap.rate, from, until);
     } else {
-      // They part, and may approach again; what only slides is looked at by others.
+      // They separate, and may approach again; sliding is handled elsewhere.
       if (acceleration == 0.0 || gap.rate < slidingSpeed) return never;
       wait = 2.0 * gap.rate / acceleration;
     }
     const double next = time + wait;
     if (!(next <= until)) return never;
     if (next == time) {
-      // Closer than the next number: this is the touch.
+      // Closer than the resolution of time: this is the touch.
       if (!gap.counts() || gap.rate >= -restTolerance) return never;
       return time;
     }
@@ -145,9 +145,8 @@ double cornerOnPost(const Flight& flight, const Vector2& corner, const Segment& 
                      until);
 }
 
-// Whether a distance keeps its sign for `time` seconds, whose rate now is `rate` and changes by no
-// more than `acceleration`. It shrinks faster and faster at most, so that its least is at the
-// beginning or the end.
+// Whether a distance with an initial `rate` and a maximum `acceleration` keeps its sign for `time`
+// seconds. Its lower bound is concave, so that its minimum is at the beginning or the end.
 bool keepsSign(double distance, double rate, double acceleration, double time) {
   constexpr double open = 2.0 * touchTolerance;
   if (distance < 0.0) {
@@ -210,7 +209,7 @@ double Sweep::timeOfTouch(const Segment& wall, const Overlap* touch, double from
     const double acceleration = flight.turning * flight.turning * outline_.radius();
     if (keepsSign(height, rate, acceleration, until - from)) continue;
     if (std::abs(cross(wall.normal, place - middle)) > halfLength + way) continue;
-    // A corner comes from the side that it is on, unless it has gone in a little.
+    // A corner comes from the side that it is on, unless it penetrates slightly.
     double front = 1.0;
     if (inFace) {
       front = touch->normal.dot(wall.normal) < 0.0 ? -1.0 : 1.0;

@@ -11,11 +11,11 @@ inline constexpr double inLine = 1e-4;
 /// nearly in line.
 inline constexpr double nearlyInLine = 0.087;
 
-/// What is found deeper in each other than this within a step, m, was not touched anew: it slides.
+/// A penetration greater than this within a step, m, is no new touch: it slides.
 inline constexpr double freshDepth = 10.0 * touchTolerance;
 
-/// What slides within a step is no deeper in each other than this, m; an outline that lies deeper
-/// was put there.
+/// Sliding within a step penetrates no deeper than this, m; an outline that lies deeper was placed
+/// there.
 inline constexpr double slidingDepth = 0.05;
 
 }  // namespace bumper

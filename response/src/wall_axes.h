@@ -20,7 +20,7 @@ inline WallCorners inWallAxes(const Outline& outline, const Placement& at, const
   const Vector2 tangent = turnedLeft(line.normal);
   const double along = tangent.dot(at.position);
   const double depth = line.offset - line.normal.dot(at.position);
-  // How the vehicle's axes lie to the wall.
+  // The vehicle's axes in the wall's.
   const Vector2 forward = at.turned({1.0, 0.0});
   const double cosine = tangent.dot(forward);
   const double sine = line.normal.dot(forward);

@@ -60,7 +60,8 @@ class BoxTree {
         (distance2 - query.reach2).max(node.lowZ - query.high.z()).max(query.low.z() - node.highZ);
     if (excess.minCoeff() > 0.0F) return;
     for (Eigen::Index k = 0; k < 4; ++k) {
-      if (excess[k] > 0.0F || !enter(distance2[k], node.lowZ[k], node.highZ[k])) continue;
+      const auto at = [k](const Four& values) { return static_cast<double>(values[k]); };
+      if (excess[k] > 0.0F || !enter(at(distance2), at(node.lowZ), at(node.highZ))) continue;
       const std::size_t child = arity * number + static_cast<std::size_t>(k);
       if (level > 0) {
         descend(level - 1, child, query, enter, visit);

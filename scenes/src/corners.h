@@ -10,6 +10,9 @@
 
 namespace bumper {
 
+/// The index of nothing.
+inline constexpr std::uint32_t noIndex = std::numeric_limits<std::uint32_t>::max();
+
 /// The corners of a triangle, as numbers that are equal where the points are.
 using Corners = std::array<std::uint32_t, 3>;
 
@@ -22,23 +25,21 @@ inline Corners sorted(Corners corners) {
 /// Numbers triangles by their sorted corners; one allocation serves all.
 class TriangleTable {
  public:
-  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
   /// For at most so many different triangles.
-  explicit TriangleTable(std::size_t most) : slots_(std::bit_ceil(2 * most + 1), none) {
+  explicit TriangleTable(std::size_t most) : slots_(std::bit_ceil(2 * most + 1), noIndex) {
     keys_.reserve(most);
   }
 
   /// Gives a triangle that is not in the table yet the next number, from 0 on; false if it is.
   bool insert(const Corners& corners) {
     std::uint32_t& slot = slots_[slotOf(corners)];
-    if (slot != none) return false;
+    if (slot != noIndex) return false;
     slot = static_cast<std::uint32_t>(keys_.size());
     keys_.push_back(corners);
     return true;
   }
 
-  /// The number of a triangle; `none` if it is not in the table.
+  /// The number of a triangle; `noIndex` if it is not in the table.
   [[nodiscard]] std::uint32_t find(const Corners& corners) const { return slots_[slotOf(corners)]; }
 
  private:
@@ -50,7 +51,7 @@ class TriangleTable {
       hash ^= hash >> 32U;
     }
     std::size_t slot = static_cast<std::size_t>(hash) & (slots_.size() - 1);
-    while (slots_[slot] != none && keys_[slots_[slot]] != corners) {
+    while (slots_[slot] != noIndex && keys_[slots_[slot]] != corners) {
       slot = (slot + 1) & (slots_.size() - 1);
     }
     return slot;

@@ -11,9 +11,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
+#include "corners.h"
 #include "single_precision.h"
 #include "triangle.h"
 #include "weld.h"
@@ -21,8 +21,6 @@
 namespace bumper {
 
 namespace {
-
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 /// Flat pieces narrower than this on average, m, carry no vehicle.
 constexpr double narrowest = 1.0;
@@ -85,12 +83,12 @@ void keepWide(const Scene& scene, std::vector<std::uint32_t>& flat) {
     pieces.join(cornerOf(i, 0), cornerOf(i, 1));
     pieces.join(cornerOf(i, 0), cornerOf(i, 2));
   }
-  std::vector<std::uint32_t> numbers(welded.size(), none);
+  std::vector<std::uint32_t> numbers(welded.size(), noIndex);
   std::vector<std::uint32_t> pieceOf(flat.size());
   std::vector<Extent> extents;
   for (std::size_t n = 0; n < flat.size(); ++n) {
     std::uint32_t& number = numbers[pieces.find(cornerOf(flat[n], 0))];
-    if (number == none) {
+    if (number == noIndex) {
       number = static_cast<std::uint32_t>(extents.size());
       extents.emplace_back();
     }
@@ -149,7 +147,7 @@ void GroundLevels::chooseCellSize(const std::vector<Eigen::Vector2d>& boxes, dou
 }
 
 void GroundLevels::add(std::size_t cell, float low, float high) {
-  for (std::uint32_t i = first_[cell]; i != none; i = levels_[i].next) {
+  for (std::uint32_t i = first_[cell]; i != noIndex; i = levels_[i].next) {
     Level& level = levels_[i];
     if (low > level.high + levelGap || high < level.low - levelGap) continue;
     level.low = std::min(level.low, low);
@@ -172,7 +170,7 @@ GroundLevels::GroundLevels(const Scene& scene, double maxNormalUp, double distan
     boxes.emplace_back(box.max().head<2>());
   }
   chooseCellSize(boxes, std::max(0.5 * distance, narrowest));
-  first_.assign(static_cast<std::size_t>(across_ * deep_), none);
+  first_.assign(static_cast<std::size_t>(across_ * deep_), noIndex);
   for (std::size_t n = 0; n < ground.size(); ++n) {
     const Eigen::AlignedBox3d box = boxOf(cornersOf(scene, scene.triangles[ground[n]]));
     const auto low =
@@ -198,7 +196,7 @@ GroundLevels::Place GroundLevels::placeOf(const Wall& wall, const GroundReach& r
   bool any = false;
   for (std::int64_t y = cells.near; y <= cells.far; ++y) {
     for (std::int64_t x = cells.left; x <= cells.right; ++x) {
-      for (std::uint32_t i = first_[static_cast<std::size_t>(y * across_ + x)]; i != none;
+      for (std::uint32_t i = first_[static_cast<std::size_t>(y * across_ + x)]; i != noIndex;
            i = levels_[i].next) {
         const Level& level = levels_[i];
         any = true;

@@ -11,7 +11,7 @@ namespace bumper {
 namespace {
 
 /// Ground bends by less than 15°, and steps by no more than this, m, where it goes on.
-constexpr double minAlignment = 0.966;
+constexpr double minEvenness = 0.966;
 constexpr double maxStep = 0.03;
 
 /// In plan, edges included.
@@ -30,7 +30,7 @@ std::vector<TriangleCorners> flatTriangles(const Scene& scene, const std::vector
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
     if (isWall[i]) continue;
     const TriangleCorners triangle = cornersOf(scene, scene.triangles[i]);
-    if (upwardNormal(triangle).z() >= minGroundNormalUp * minAlignment) flat.push_back(triangle);
+    if (upwardNormal(triangle).z() >= minGroundNormalUp * minEvenness) flat.push_back(triangle);
   }
   return flat;
 }
@@ -72,7 +72,7 @@ std::vector<bool> onGround(const std::vector<GroundProbe>& probes, const Scene& 
       const Eigen::Vector3d normal = upwardNormal(triangle);
       const double height = heightOfPlane(triangle[0], normal, probe.place.head<2>());
       found[i] =
-          normal.dot(probe.normal) >= minAlignment && std::abs(height - probe.place.z()) <= maxStep;
+          normal.dot(probe.normal) >= minEvenness && std::abs(height - probe.place.z()) <= maxStep;
     });
   }
   if (visits == 0) found.assign(probes.size(), true);

@@ -116,7 +116,7 @@ void dropRepeated(std::vector<Wall>& walls, std::vector<Corners>& corners, WallR
     const std::uint32_t s = corners[second.wall].at(second.opposite);
     for (const std::uint32_t end : {first.low, first.high}) {
       const std::uint32_t other = table.find(sorted({r, s, end}));
-      if (other == TriangleTable::none || dropped[other]) continue;
+      if (other == noIndex || dropped[other]) continue;
       dropped[other] = true;
       ++report.droppedRetriangulated;
     }

@@ -5,15 +5,15 @@
 #include <cstddef>
 #include <utility>
 
+#include "corners.h"
+
 namespace bumper {
 
 namespace {
 
 /// Cosine of the angle, 10°, by which a surface may bend away from the triangle that it is
 /// grown from.
-constexpr double minAlignment = 0.985;
-
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr double minSmoothness = 0.985;
 
 }  // namespace
 
@@ -44,7 +44,7 @@ SurfaceGrower::SurfaceGrower(const std::vector<Wall>& walls, const std::vector<C
       corners_(corners),
       table_(corners),
       taken_(walls.size(), false),
-      visitedFrom_(table_.corners(), none) {}
+      visitedFrom_(table_.corners(), noIndex) {}
 
 std::vector<std::uint32_t> SurfaceGrower::take(std::uint32_t seed) {
   const Eigen::Vector2d direction = facing(walls_[seed]);
@@ -55,7 +55,7 @@ std::vector<std::uint32_t> SurfaceGrower::take(std::uint32_t seed) {
       // Once is enough: the corner of a large fan would cost the square of its triangles.
       if (std::exchange(visitedFrom_[corner], seed) == seed) continue;
       table_.forWallsAt(corner, [&](std::uint32_t other) {
-        if (taken_[other] || std::abs(facing(walls_[other]).dot(direction)) < minAlignment) {
+        if (taken_[other] || std::abs(facing(walls_[other]).dot(direction)) < minSmoothness) {
           return;
         }
         taken_[other] = true;

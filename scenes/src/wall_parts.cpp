@@ -52,7 +52,7 @@ std::vector<WallPart> wallParts(const Scene& scene, const Walls& walls) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (parts[i].kind == WallPart::Kind::face) continue;
     const std::uint32_t skin = faces.find(sorted(corners[i]));
-    if (skin != TriangleTable::none) {
+    if (skin != noIndex) {
       parts[i] = parts[faceOf[skin]];
       continue;
     }

@@ -6,13 +6,12 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+
+#include "corners.h"
 
 namespace bumper {
 
 namespace {
-
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 /// Cells wider than the weld distance, so that a point seldom has to look into a second one.
 constexpr double cellSize = 8.0 * weldDistance;
@@ -42,11 +41,11 @@ constexpr std::uint32_t lookBack = 6;
 class PointTable {
  public:
   explicit PointTable(const std::vector<Eigen::Vector3d>& points)
-      : points_(points), heads_(std::bit_ceil(points.size() + 1), none), next_(points.size()) {}
+      : points_(points), heads_(std::bit_ceil(points.size() + 1), noIndex), next_(points.size()) {}
 
   [[nodiscard]] std::uint32_t find(const Cell& cell, const Eigen::Vector3d& point) const {
-    std::uint32_t found = none;
-    for (std::uint32_t i = heads_[slot(cell)]; i != none; i = next_[i]) {
+    std::uint32_t found = noIndex;
+    for (std::uint32_t i = heads_[slot(cell)]; i != noIndex; i = next_[i]) {
       if ((points_[i] - point).squaredNorm() <= weldDistance * weldDistance) {
         found = std::min(found, i);
       }
@@ -77,7 +76,7 @@ std::uint32_t findNear(const PointTable& table, const Eigen::Vector3d& point) {
   const Cell low = cellOf(point - reach);
   const Cell high = cellOf(point + reach);
   if (low == high) return table.find(low, point);
-  std::uint32_t found = none;
+  std::uint32_t found = noIndex;
   for (unsigned corner = 0; corner < 8; ++corner) {
     Cell cell = low;
     bool repeated = false;
@@ -91,13 +90,13 @@ std::uint32_t findNear(const PointTable& table, const Eigen::Vector3d& point) {
   return found;
 }
 
-/// The index of an equal point shortly before a point, or `none`.
+/// The index of an equal point shortly before a point, or `noIndex`.
 std::uint32_t findEqual(const std::vector<Eigen::Vector3d>& points, std::uint32_t index) {
   const std::uint32_t first = index - std::min(index, lookBack);
   for (std::uint32_t i = index; i > first; --i) {
     if (points[i - 1] == points[index]) return i - 1;
   }
-  return none;
+  return noIndex;
 }
 
 }  // namespace
@@ -107,13 +106,13 @@ std::vector<std::uint32_t> weld(const std::vector<Eigen::Vector3d>& points) {
   std::vector<std::uint32_t> representative(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     const std::uint32_t equal = findEqual(points, i);
-    if (equal != none) {
+    if (equal != noIndex) {
       representative[i] = representative[equal];
       continue;
     }
     const std::uint32_t found = findNear(table, points[i]);
-    if (found == none) table.insert(cellOf(points[i]), i);
-    representative[i] = found == none ? i : found;
+    if (found == noIndex) table.insert(cellOf(points[i]), i);
+    representative[i] = found == noIndex ? i : found;
   }
   return representative;
 }

@@ -282,7 +282,7 @@ TEST(StepContract, ASavedStateOfOthersIsRefused) {
   saved.vehicles.clear();
   EXPECT_THROW(run.responder.restore(saved), Error);
   saved = run.responder.save();
-  saved.vehicles[0].passages.push_back({.barrier = {.value = 7}});
+  saved.vehicles[0].passable.push_back({.barrier = {.value = 7}});
   EXPECT_THROW(run.responder.restore(saved), Error);
   saved = run.responder.save();
   saved.vehicles[0].contacts.push_back({.barrier = {.value = 0}, .wall = 40});

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "bumper/response/outline.h"
 #include "oracle.h"
@@ -232,6 +233,122 @@ TEST(Respond, SeparatingContactsAreLeftAlone) {
     ASSERT_EQ(response.contact.regime, Regime::separating);
     ASSERT_LE(response.approachSpeed, 0.0);
     ASSERT_EQ(response.energyRatio, 1.0);
+  }
+}
+
+/// Two vehicles that close at a random contact point.
+struct Pair {
+  Hit hit;
+  PlanarBody first;
+  PlanarBody second;
+};
+
+double closingSpeed(const Pair& pair, const PlanarMotion& first, const PlanarMotion& second) {
+  return -(velocityAt(first, pair.hit.impact.arm) - velocityAt(second, pair.hit.impact.otherArm))
+              .dot(pair.hit.impact.normal);
+}
+
+Pair randomPair(Random& random) {
+  Pair pair{.hit = randomHit(random)};
+  const Hit other = randomHit(random);
+  pair.first = freeBody(pair.hit.vehicle, pair.hit.motion);
+  pair.second = freeBody(other.vehicle, other.motion);
+  pair.hit.impact.otherArm = other.impact.arm;
+  pair.second.motion.position = pair.hit.impact.point - other.impact.arm;
+  if (closingSpeed(pair, pair.first.motion, pair.second.motion) < 0.0) {
+    pair.hit.impact.normal = -pair.hit.impact.normal;
+  }
+  return pair;
+}
+
+// Momentum, moment of momentum, restitution and energy, from the motions alone.
+TEST(RespondOnAnotherBody, KeepsMomentumAndTheLaw) {
+  Random random(607);
+  for (int i = 0; i < 10'000; ++i) {
+    Pair pair = randomPair(random);
+    ResponseSettings& settings = pair.hit.settings;
+    settings.restSpeed = 0.0;
+    settings.law = i % 2 == 0 ? Law::restitution : Law::energy;
+    const auto& [first, second] = std::pair(pair.first, pair.second);
+    const ImpactResponse response = respond(pair.hit.impact, first, second, settings);
+    const PlanarMotion& before = first.motion;
+    const PlanarMotion& otherBefore = second.motion;
+    const auto momentum = [&](const PlanarMotion& a, const PlanarMotion& b) -> Vector2 {
+      return first.mass * a.velocity + second.mass * b.velocity;
+    };
+    const auto moment = [&](const PlanarMotion& a, const PlanarMotion& b) {
+      const Vector2& contact = pair.hit.impact.point;
+      return first.yawInertia * a.yawRate + second.yawInertia * b.yawRate +
+             cross(a.position - contact, first.mass * a.velocity) +
+             cross(b.position - contact, second.mass * b.velocity);
+    };
+    const double size = momentum(before, otherBefore).norm() + response.impulse.linear.norm();
+    ASSERT_LE(
+        (momentum(response.after, response.otherAfter) - momentum(before, otherBefore)).norm(),
+        1e-13 * size);
+    ASSERT_NEAR(moment(response.after, response.otherAfter), moment(before, otherBefore),
+                1e-12 * (1.0 + 10.0 * size));
+
+    const double closing = closingSpeed(pair, before, otherBefore);
+    ASSERT_NEAR(response.approachSpeed, closing, 1e-12 * (1.0 + closing));
+    const double opening = -closingSpeed(pair, response.after, response.otherAfter);
+    if (settings.law == Law::restitution) {
+      ASSERT_NEAR(opening, response.restitution * closing, 1e-10 * (1.0 + closing)) << i;
+    } else {
+      ASSERT_LE(opening, settings.maxRestitution * closing * (1.0 + 1e-9) + 1e-10) << i;
+    }
+    const double energy = first.energy() + second.energy();
+    const double energyAfter = yawPlaneEnergy(response.after, first.mass, first.yawInertia) +
+                               yawPlaneEnergy(response.otherAfter, second.mass, second.yawInertia);
+    ASSERT_LE(energyAfter, energy * (1.0 + 1e-12)) << i;
+    ASSERT_NEAR(response.energyRatio, energyAfter / energy, 1e-12) << i;
+  }
+}
+
+// Which of the two is called the vehicle does not matter, nor a common velocity.
+TEST(RespondOnAnotherBody, IsTheSameFromBothSides) {
+  Random random(608);
+  for (int i = 0; i < 5'000; ++i) {
+    const Pair pair = randomPair(random);
+    const ResponseSettings& settings = pair.hit.settings;
+    const ImpactResponse response = respond(pair.hit.impact, pair.first, pair.second, settings);
+    Impact turned = pair.hit.impact;
+    turned.normal = -turned.normal;
+    std::swap(turned.arm, turned.otherArm);
+    const ImpactResponse other = respond(turned, pair.second, pair.first, settings);
+    const double size = response.impulse.linear.norm();
+    ASSERT_LE((response.impulse.linear + other.impulse.linear).norm(), 1e-12 * size) << i;
+    ASSERT_LE((response.after.velocity - other.otherAfter.velocity).norm(), 1e-11) << i;
+
+    PlanarBody first = pair.first;
+    PlanarBody second = pair.second;
+    for (PlanarBody* body : {&first, &second}) body->motion.velocity += Vector2(30.0, -10.0);
+    const ImpactResponse carried = respond(pair.hit.impact, first, second, settings);
+    ASSERT_LE((response.impulse.linear - carried.impulse.linear).norm(), 1e-11 * (1.0 + size)) << i;
+  }
+}
+
+// A body that nothing moves, at rest or driven, is a wall at rest or one that comes along.
+TEST(RespondOnAnotherBody, OneThatNothingMovesIsAWall) {
+  Random random(609);
+  for (int i = 0; i < 5'000; ++i) {
+    const Hit hit = randomHit(random);
+    const PlanarBody vehicle = freeBody(hit.vehicle, hit.motion);
+    const ImpactResponse wall = answer(hit);
+    PlanarBody heavy;
+    heavy.mass = 1e15 * vehicle.mass;
+    heavy.yawInertia = 1e15 * vehicle.yawInertia;
+    const ImpactResponse nearly = respond(hit.impact, vehicle, heavy, hit.settings);
+    ASSERT_LE((wall.after.velocity - nearly.after.velocity).norm(), 1e-9) << i;
+
+    PlanarBody driven;
+    driven.motion.velocity = {random.uniform(-20.0, 20.0), random.uniform(-20.0, 20.0)};
+    PlanarBody carried = vehicle;
+    carried.motion.velocity += driven.motion.velocity;
+    const ImpactResponse along = respond(hit.impact, carried, driven, hit.settings);
+    ASSERT_LE((along.after.velocity - driven.motion.velocity - wall.after.velocity).norm(), 1e-10)
+        << i;
+    ASSERT_EQ(along.otherAfter.velocity, driven.motion.velocity);
   }
 }
 

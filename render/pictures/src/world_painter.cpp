@@ -178,11 +178,11 @@ void WorldPainter::addVehicles(const Recording& recording, const RunExcerpt& run
       addFarMarker(drawn, withOpacity(paint + paleness * (Vector3f::Ones() - paint), opacity));
       continue;
     }
-    auto& body = bodies[drawn.vehicle];
-    if (!body) body = addBody(vehicle, drawn.vehicle, options);
+    auto& model = bodies[drawn.vehicle];
+    if (!model) model = addBody(vehicle, drawn.vehicle, options);
     Eigen::Affine3d toLocal = Eigen::Affine3d::Identity();
     toLocal.translate(drawn.pose.position - picture_.localOrigin).rotate(drawn.pose.orientation);
-    picture_.drawnBodies.push_back({*body, toLocal.cast<float>(), paleness, opacity});
+    picture_.drawnBodies.push_back({*model, toLocal.cast<float>(), paleness, opacity});
   }
 }
 

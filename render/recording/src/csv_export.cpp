@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "bumper/base/output_file.h"
+#include "bumper/render/degrees.h"
 #include "bumper/response/error.h"
 
 namespace bumper {
@@ -75,8 +76,6 @@ class Row {
   bool first_ = true;
 };
 
-double degrees(double radians) { return radians * (180.0 / std::numbers::pi); }
-
 std::string eventsText(const Recording& recording) {
   std::string text(eventsHeader);
   for (const RecordedImpact& impact : recording.impacts()) {
@@ -86,8 +85,8 @@ std::string eventsText(const Recording& recording) {
         << event.triangle << event.material << toString(event.law) << event.contact.x()
         << event.contact.y() << event.contact.z() << event.normal.x() << event.normal.y()
         << event.normal.z() << event.arm.x() << event.arm.y()
-        << degrees(event.angles.contactVelocity) << degrees(event.angles.centreVelocity)
-        << degrees(event.angles.heading) << event.approachSpeed << event.restitution
+        << event.angles.contactVelocity * degrees << event.angles.centreVelocity * degrees
+        << event.angles.heading * degrees << event.approachSpeed << event.restitution
         << event.friction << event.impulseNormal << event.impulseTangent << event.impulseRatio
         << event.criticalImpulseRatio << event.deltaV << event.yawRateBefore << event.yawRateAfter
         << event.speedBefore << event.speedAfter << event.velocityAfter.x()

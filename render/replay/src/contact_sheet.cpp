@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "bumper/render/degrees.h"
 #include "bumper/render/snapshot_renderer.h"
 #include "bumper/response/error.h"
 #include "camera.h"
@@ -29,19 +29,18 @@ constexpr Rgb ink{25, 28, 32};
 constexpr Rgb softInk{92, 98, 106};
 constexpr double sameRow = 0.3;          ///< s
 constexpr std::size_t mostHeadings = 6;  ///< of a row, its hardest impacts
-constexpr double degrees = 180.0 / std::numbers::pi;
 
-void require(double value, double low, double high, const char* name) {
+void requireOption(double value, double low, double high, const char* name) {
   if (value >= low && value <= high) return;
   throw Error(std::string("ContactSheetOptions::") + name + " is " + drawing::fixed(value, 0) +
               ": it must lie in " + drawing::fixed(low, 0) + " to " + drawing::fixed(high, 0));
 }
 
 void checkOptions(const Recording& recording, const ContactSheetOptions& options) {
-  require(options.pictureWidth, 160, 2000, "pictureWidth");
-  require(options.pictureHeight, 120, 2000, "pictureHeight");
-  require(static_cast<double>(options.impacts), 1, 40, "impacts");
-  require(static_cast<double>(options.instants.size()), 1, 12, "instants.size()");
+  requireOption(options.pictureWidth, 160, 2000, "pictureWidth");
+  requireOption(options.pictureHeight, 120, 2000, "pictureHeight");
+  requireOption(static_cast<double>(options.impacts), 1, 40, "impacts");
+  requireOption(static_cast<double>(options.instants.size()), 1, 12, "instants.size()");
   const auto isBad = [](double time) { return !std::isfinite(time); };
   if (std::ranges::any_of(options.instants, isBad) || !std::ranges::is_sorted(options.instants))
     throw Error("ContactSheetOptions::instants must be finite and in ascending order");

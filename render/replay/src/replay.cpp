@@ -20,7 +20,7 @@ namespace bumper {
 
 namespace {
 
-void require(double value, double low, double high, const char* name) {
+void requireTiming(double value, double low, double high, const char* name) {
   if (value >= low && value <= high) return;
   std::ostringstream message;
   message << "ReplayTiming::" << name << " is " << value << ": it must lie in " << low << " to "
@@ -113,10 +113,10 @@ void drawFrames(const Scene& scene, const Recording& recording, const ReplayOpti
 }  // namespace
 
 std::vector<double> replayTimes(const Recording& recording, const ReplayTiming& timing) {
-  require(timing.framesPerSecond, 1.0, 240.0, "framesPerSecond");
-  require(timing.speed, 0.001, 1000.0, "speed");
-  require(timing.slowMotion, 1.0, 100.0, "slowMotion");
-  require(timing.slowReach, 0.0, 100.0, "slowReach");
+  requireTiming(timing.framesPerSecond, 1.0, 240.0, "framesPerSecond");
+  requireTiming(timing.speed, 0.001, 1000.0, "speed");
+  requireTiming(timing.slowMotion, 1.0, 100.0, "slowMotion");
+  requireTiming(timing.slowReach, 0.0, 100.0, "slowReach");
   const Span span = spanOf(recording, timing);
   const std::vector<double> impacts = slowingImpacts(recording);
   const double step = timing.speed / timing.framesPerSecond;

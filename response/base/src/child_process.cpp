@@ -104,7 +104,7 @@ ChildProcess::ChildProcess(const std::string& program, const std::vector<std::st
   Descriptor childOutput;
   std::array<int, 2> ends{-1, -1};
   if (streams.input) {
-    // A socket rather than a pipe: writing to one that nobody reads any more raises no signal.
+    // A socket rather than a pipe: writing to one without a reader raises no signal.
     require(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) == 0);
     childInput.set(ends[0]);
     input.set(ends[1]);

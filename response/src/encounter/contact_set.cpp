@@ -77,7 +77,7 @@ std::optional<Overlap> ContactSet::overlapWith(const Segment& wall, double time)
   return touch;
 }
 
-// An end from which another wall leads further into the outline is no end that could be hit.
+// An end from which another wall continues into the outline cannot be hit.
 bool ContactSet::isShielded(const Overlap& end) const {
   const Vector2 place = end.deepest * turnedLeft(end.normal) + end.offset * end.normal;
   return std::any_of(manifolds_.begin(), manifolds_.end(), [&](const Manifold& wall) {
@@ -99,7 +99,7 @@ bool ContactSet::isHidden(const Manifold& wall) const {
     if (&wall == &other || !other.touched || other.passed) return false;
     if (!isBehind(wall.overlap, other.overlap)) return false;
     if (!isBehind(other.overlap, wall.overlap)) return true;
-    // Each behind the other: a convex corner. The vehicle came in over the one touched last.
+    // Each behind the other: a convex corner. The vehicle entered through the one touched last.
     const double own = sinceTouch(wall);
     const double others = sinceTouch(other);
     return own > others || (own == others && &wall > &other);

@@ -17,16 +17,16 @@ struct Approach {
   double speed = 0.0;
 };
 
-/// The contact manifold of a vehicle and one wall nearby, and what became of it in this step.
+/// The contact manifold of a vehicle and one wall nearby, and its state in this step.
 struct Manifold {
   Segment segment;
-  Overlap overlap{};          ///< if touched
-  ContactPoints points{};     ///< all that touches, the first point before others; if touched
-  bool touched = false;       ///< the outline touches or overlaps the wall
-  bool hidden = false;        ///< … but it lies behind another touched wall
-  bool struck = false;        ///< … and `answered` has had an impulse at this instant
-  bool passed = false;        ///< it lets the vehicle through, or takes part no more in this step
-  double ignoredUntil = 0.0;  ///< touches before this time were looked at, to no effect
+  Overlap overlap{};       ///< if touched
+  ContactPoints points{};  ///< all that touches, the first point before others; if touched
+  bool touched = false;    ///< the outline touches or overlaps the wall
+  bool hidden = false;     ///< … but it lies behind another touched wall
+  bool struck = false;     ///< … and `answered` has had an impulse at this instant
+  bool passed = false;     ///< it lets the vehicle through, or is ignored for the rest of this step
+  double ignoredUntil = 0.0;  ///< touches before this time were checked, to no effect
   Approach answered{};
 };
 
@@ -40,7 +40,7 @@ class ContactSet {
   /// Finds what the outline touches where it is now, `time` seconds into the step: within
   /// touchTolerance, along the direction of least penetration.
   void update(double time);
-  /// The same by the paper's view: what overlaps, along the wall's own normal.
+  /// The same as in the paper: overlaps, along the wall's own normal.
   void updateByFaces();
 
   [[nodiscard]] std::span<Manifold> all() { return manifolds_; }
@@ -62,9 +62,9 @@ class ContactSet {
   [[nodiscard]] Approach touching(const Manifold& wall) const;
   /// How long ago the wall was touched at such a speed, s.
   [[nodiscard]] static double sinceTouch(const Manifold& wall, double speed);
-  /// The middle of the line of interference with a wall and the walls that go on from its ends with
-  /// a slight bend, each counting by its length and the less the more it is bent. A wall that is
-  /// not quite flat is hit like a flat one.
+  /// The middle of the line of interference with a wall and the walls that go on from its ends at
+  /// a small angle, each weighted by its length and less for a larger angle. A wall that is not
+  /// quite flat is hit like a flat one.
   [[nodiscard]] Approach middleOfChain(const Manifold& struck, double penetration) const;
 
  private:

@@ -1,3 +1,6 @@
+// The timeline of one step: free flight to the next time of impact, impulses there, and on, until
+// the step ends.
+
 #include "encounter.h"
 
 #include <algorithm>
@@ -8,15 +11,14 @@ namespace bumper {
 
 namespace {
 
-// Part of a depth that is recovered in a step, and what is left in peace, m.
+// Fraction of the penetration recovered in a step, and the slop that is kept, m.
 constexpr double recoveryShare = 0.2;
 constexpr double allowedDepth = 1e-4;
 
-// Part of a step after which a touch without effect is looked at again.
+// Fraction of a step after which a touch without effect is checked again.
 constexpr double lookAgain = 0.01;
 
-// What touches and does not approach is looked at again before it can be deeper than that in each
-// other, m.
+// A contact that does not approach is checked again before its penetration can exceed this, m.
 constexpr double unseenDepth = 1e-6;
 
 }  // namespace
@@ -59,7 +61,7 @@ StepOutcome Encounter::resolve(const PlanarBody& body, const Outline& outline,
   if (outcome.settled || !(h > 0.0)) {
     outcome.after = advanced(motion, h - time);
   } else {
-    // Where it would go is not known: it waits.
+    // Its further motion is unknown: it is held.
     outcome.after = motion;
     const double share = (h - time) / h;
     outcome.shift.velocity -= share * motion.velocity;
@@ -68,7 +70,7 @@ StepOutcome Encounter::resolve(const PlanarBody& body, const Outline& outline,
   return outcome;
 }
 
-// Of all walls that the outline penetrates: the velocity that takes it out a little.
+// Of all walls that the outline penetrates: the velocity of penetration recovery.
 Vector2 Encounter::recoveryVelocity(double h) const {
   constexpr double most = CollisionStep::maxRecoverySpeed;
   Vector2 velocity = Vector2::Zero();
@@ -101,8 +103,8 @@ Encounter::NextTouch Encounter::nextTouch(double from, double until) {
   return next;
 }
 
-// How long a wall that is touched can be left alone, s: none of the points that touch can approach
-// before, or be deeper than `unseenDepth`.
+// How long a touched wall needs no check, s: until then no contact point can approach or be deeper
+// than `unseenDepth`.
 double Encounter::quietTime(const Manifold& wall, double h) const {
   const PlanarMotion& motion = vehicle_.body.motion;
   const double acceleration = vehicle_.gapAcceleration();
@@ -126,7 +128,7 @@ double Encounter::quietTime(const Manifold& wall, double h) const {
   return time;
 }
 
-// How long all that touches now can be left alone, s.
+// How long no current contact needs a check, s.
 double Encounter::pause(double h) const {
   double time = never;
   for (const Manifold& wall : contacts_.all()) {
@@ -145,7 +147,7 @@ std::span<const SpeculativeContact> Encounter::speculativeContacts(const PlanarM
   for (const Manifold& wall : contacts_.all()) {
     const Surface& surface = contacts_.surfaceOf(wall);
     if (breaks(*surface.settings) || wall.hidden) continue;
-    // A long force pulse lets the vehicle in.
+    // A long force pulse allows penetration.
     const double depth =
         surface.entered ? surface.depth : enteredDepth(fastest, surface.settings->contactTime);
     speculative_.addWall(wall.segment, wall.touched ? &wall.overlap : nullptr, depth);

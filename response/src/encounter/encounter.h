@@ -9,8 +9,8 @@
 
 namespace bumper {
 
-/// One island of planar bodies on one timeline: a free one among fixed ones. The step is gone
-/// through from one time of impact to the next; at each, an Instant ends the approach.
+/// One island of planar bodies on one timeline: a free one among fixed ones. The step advances from
+/// one time of impact to the next; at each, an Instant ends the approach.
 class Encounter {
  public:
   Encounter() = default;

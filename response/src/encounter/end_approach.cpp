@@ -13,15 +13,14 @@ namespace {
 // the motions that do not approach at a point form a half-space.
 using Motion = Eigen::Vector3d;
 
-// Parts of the motion before that are rounding's.
+// Fraction of the initial motion that counts as rounding.
 constexpr double noApproach = 1e-12;
 
-// A few rounds find the ways that count; more would be rounding's.
+// A few rounds find the active directions; more would only follow rounding.
 constexpr int mostRounds = 64;
 
-/// Some ways and how far to go along each, so that one stops approaching in all that there are:
-/// non-negative least squares, after Lawson and Hanson. As many ways as count are independent of
-/// each other.
+/// Active directions and their weights, so that no direction approaches: non-negative least
+/// squares, after Lawson and Hanson. The active directions are linearly independent.
 class Stop {
  public:
   Stop(const Motion& before, std::span<const Motion> all) : before_(before), all_(all) {
@@ -44,7 +43,7 @@ class Stop {
   [[nodiscard]] std::size_t which(std::size_t i) const { return which_[i]; }
   [[nodiscard]] double far(std::size_t i) const { return far_[i]; }
 
-  /// The motion that is left: without what approaches along the ways that count.
+  /// The remaining motion, without approach along the active directions.
   [[nodiscard]] Motion after() const {
     switch (count_) {
       case 0:
@@ -65,8 +64,7 @@ class Stop {
  private:
   [[nodiscard]] const Motion& way(std::size_t i) const { return all_[which_[i]]; }
 
-  // Goes along all ways that count until nothing approaches along them; leaves out those that it
-  // would have to go back along.
+  // Solves for no approach along all active directions; drops those whose weight would be negative.
   void balance() {
     while (count_ > 0) {
       Eigen::Matrix3d ways = Eigen::Matrix3d::Zero();

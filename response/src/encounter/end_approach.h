@@ -17,10 +17,10 @@ struct TouchingPoint {
 /// More never count at once.
 inline constexpr std::size_t mostTouchingPoints = 64;
 
-/// A rigid motion in the plane has three freedoms: no more points are needed to end any of them.
+/// A rigid motion in the plane has three degrees of freedom: more points are never needed.
 inline constexpr std::size_t mostCarryingPoints = 3;
 
-/// What one of the points pushes.
+/// The share of one of the points.
 struct CarryingPoint {
   std::size_t point = 0;  ///< its place among those that were given
   double impulse = 0.0;   ///< along its normal, N s, > 0

@@ -1,3 +1,5 @@
+// The impulses at one instant: which contact is next, and which impulse it gets.
+
 #include "instant.h"
 
 #include <algorithm>
@@ -14,8 +16,8 @@ namespace {
 
 constexpr int maxAnswers = CollisionStep::maxAnswers;
 
-// From this many impacts at one instant on, none rebounds; from the next many on they are solved
-// together. Towards the end of what one step allows none rebounds either.
+// From this many impacts at one instant on, none rebounds; from the next number on they are solved
+// together. Near the limit of one step none rebounds either.
 constexpr int plasticAfter = 8;
 constexpr int togetherAfter = 16;
 constexpr int plasticInStepAfter = 40;
@@ -106,9 +108,9 @@ void Instant::answer(const Next& next, double time, Rebound rebound) {
   }
 }
 
-// All that touches pushes at once. It is reported as one impact after the other, of which each fits
-// its own arm and all of them what they do together: the energy that they take together goes by
-// impulse and approach speed.
+// All contacts act at once. They are reported as successive impacts, each consistent with its own
+// arm, and their sum with the total: the energy they dissipate is shared by impulse and approach
+// speed.
 void Instant::answerTogether(double time) {
   std::array<TouchingPoint, mostTouchingPoints> points;
   std::array<Next, mostTouchingPoints> owners;
@@ -145,7 +147,7 @@ void Instant::answerTogether(double time) {
   for (const CarryingPoint& share : shares) {
     const auto& [wall, at] = owners[share.point];
     const bool last = &share == &shares.back();
-    // The last one takes what rounding leaves.
+    // The last one absorbs the rounding.
     const PlanarImpulse part =
         last ? left : onVehicle({.normal = share.impulse}, at.normal, at.contact.arm);
     left.linear -= part.linear;

@@ -9,15 +9,15 @@
 
 namespace bumper {
 
-/// What touches and does not approach may do so again, as the outline turns: it is looked at no
-/// more often than so many times in a step.
+/// A contact that does not approach may do so later, as the outline turns: the maximum number of
+/// checks in a step.
 inline constexpr double looksInStep = 12.0;
 
 /// How the approach at one instant ended.
 enum class Settled {
   without_impulse,  ///< there was none
   by_impulses,
-  for_now  ///< by the last impulse that a step allows: the vehicle waits for the next one
+  for_now  ///< by the last impulse that a step allows: the vehicle is held until the next one
 };
 
 /// Applies impulses at one instant until nothing that touches approaches.

@@ -13,8 +13,8 @@ namespace bumper {
 
 namespace {
 
-// Pieces of one wall lie in one line within these. A crack between them no wider than that is
-// bridged: nothing of a vehicle fits into it.
+// Pieces of one wall lie in one line within these. A gap between them no wider than that is
+// bridged: no part of a vehicle fits into it.
 constexpr double crackWidth = 0.1;    // m
 constexpr double mergeOffset = 1e-4;  // m
 

@@ -8,8 +8,7 @@
 
 namespace bumper {
 
-/// Makes one segment of those that lie in one line and answer alike, so that a wall is hit as one
-/// however it is meshed.
+/// Merges collinear segments that respond alike, so that a wall is hit as one however it is meshed.
 class WallMerge {
  public:
   /// Segments as seen from `centre`: the normal points to its side unless they are solid. Neither

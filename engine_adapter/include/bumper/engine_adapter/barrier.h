@@ -22,16 +22,16 @@ struct BarrierOptions {
   /// application collides it itself. Not used for a mesh that the application already has.
   dSpaceID space = nullptr;
   /// The application's geom whose shape the scene is, in world coordinates, for classes whose shape
-  /// ODE does not tell: convex, heightfield. Null: a new geom is made. Not used for a geom that is
-  /// a barrier by itself.
+  /// ODE does not expose: convex, heightfield. Null: a new geom is made. Not used for a geom that
+  /// is a barrier by itself.
   dGeomID geom = nullptr;
-  /// What events call the barrier; empty: the scene's name, or "barrier <number>".
+  /// The name in events; empty: the scene's name, or "barrier <number>".
   std::string name{};
   /// Which triangles are walls.
   WallSelection walls{};
-  /// How these walls answer; empty: as the responder's options say.
+  /// How these walls respond; empty: ResponderOptions::response.
   std::optional<ResponseSettings> response{};
-  /// How the walls of some materials answer, by the material's name in the scene. A name that the
+  /// How the walls of some materials respond, by the material's name in the scene. A name that the
   /// scene does not have is an Error.
   std::map<std::string, ResponseSettings> materials{};
 };

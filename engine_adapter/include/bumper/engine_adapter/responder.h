@@ -24,15 +24,15 @@ enum class Delivery {
 };
 
 struct ResponderOptions {
-  /// How walls answer, unless their barrier says otherwise.
+  /// How walls respond, unless their barrier has settings of its own.
   ResponseSettings response{};
   Delivery delivery = Delivery::force_pulse;
-  /// Whether a vehicle that joints or contacts act on gets guard contacts: contact joints of
-  /// Bumper's own with the walls nearby, for one step, through which nothing that pushes can press
-  /// it. A free body gets none.
+  /// Whether a vehicle that joints or contacts act on gets guard contacts: contact joints with the
+  /// walls nearby, for one step, that keep it from being pushed through them. A free body gets
+  /// none.
   bool guardContacts = true;
-  /// Whether what a vehicle cannot reach is left out of a step, and what was near it in one step is
-  /// remembered for the next. Off: every step asks for everything anew. The result is the same.
+  /// Whether a step skips walls that a vehicle cannot reach, and reuses the walls found in earlier
+  /// steps. Off: every step queries all walls anew. The result is the same.
   bool skipping = true;
 };
 
@@ -44,12 +44,12 @@ inline constexpr unsigned not_finite = 2;    ///< a vehicle's state is not finit
 inline constexpr unsigned tilted = 4;  ///< a vehicle leans beyond its limit: its contacts are ODE's
 inline constexpr unsigned unsettled = 8;  ///< a vehicle had more impacts than one step allows, and
                                           ///< was held where it was until the next one
-inline constexpr unsigned repeated_step = 16;    ///< no world step since the last step(): what that
-                                                 ///< one had added was taken back first
+inline constexpr unsigned repeated_step = 16;    ///< no world step since the last step(): the last
+                                                 ///< delivery was reversed first
 inline constexpr unsigned other_step_size = 32;  ///< the world's step had another size than
-                                                 ///< step(h): what was not delivered is, now
+                                                 ///< step(h): the missing part is delivered now
 inline constexpr unsigned moved = 64;  ///< a vehicle was moved by other means than a world step:
-                                       ///< what was still to be delivered is dropped
+                                       ///< the pending impulse is dropped
 inline constexpr unsigned kinematic = 128;  ///< a body of a vehicle was made kinematic: no force
                                             ///< moves it, and the vehicle was left alone
 }  // namespace step_issue
@@ -58,40 +58,38 @@ inline constexpr unsigned kinematic = 128;  ///< a body of a vehicle was made ki
 /// forces (the paper's scheme).
 ///
 /// The responder borrows the world. It owns the contacts of a vehicle's bodies with walls at the
-/// heights of its band, as long as the vehicle stands upright, and answers them at the outline,
+/// heights of its band, as long as the vehicle stands upright, and resolves them at the outline,
 /// which should therefore enclose the bodies' geoms. What stands before such a wall within half a
-/// metre of it, lower than the band's top and not a part of the ground, is the wall's for the
-/// chassis; wheels climb it as ODE has it. All other contacts stay ODE's. Each step: collide, add
-/// your own forces, step(h), step the world by the same h. A step() too many, or a world step of
-/// another size, is noticed and put right; see step_issue.
+/// metre of it, lower than the band's top and not a part of the ground, counts as the wall for the
+/// chassis; wheels climb it by ODE's contacts. All other contacts stay ODE's. Each step: collide,
+/// add your own forces, step(h), step the world by the same h. A step() too many, or a world step
+/// of another size, is detected and corrected; see step_issue.
 ///
 /// An impact happens at its own time within a step, and its force pulse lasts until the same time
-/// of the next one. Meanwhile the body's velocity is not yet that after the impact: velocity() and
-/// yawRate() are.
+/// of the next one. Until then the body's velocity is not yet the one after the impact; velocity()
+/// and yawRate() return that.
 ///
 /// Vehicle frame: x forward, y left, z up in the chassis body's axes, origin at the mass centre of
 /// the chassis and its linked bodies. World: right-handed, z up, metres, double precision.
 ///
 /// Where joints or contacts act on a vehicle too, step() adds contact joints with the walls nearby
-/// for one step (ResponderOptions::guardContacts), in a group of its own. While it waits for the
-/// world's step it moves a body of its own there, to know how long that was.
+/// for one step (ResponderOptions::guardContacts), in a joint group of its own. Until the world
+/// steps, a body of the responder's moves in it, to measure the step.
 ///
 /// Barriers stand still between calls of updateBarrier(): a scene, or a geom of the application's.
 /// Nothing here touches data, callbacks or collision bits of the application's geoms and bodies.
 ///
 /// The end: best is the responder first, then geoms and spaces, then the world. Otherwise bodies
-/// must not be gone when a call reads them: step(), claims(), keepUnclaimed(), save() and what asks
-/// for a vehicle; of geoms of the application's only updateBarrier() reads. removeVehicle(),
-/// removeBarrier() and the destructor read neither, whatever is gone. The new geom of a barrier may
-/// be destroyed with its space, or by itself unless in a quadtree space, and be moved to a space
-/// that hangs together with the old one: one is in the other, or both are in a third. Its walls
-/// still answer until removeBarrier(). One that was made in no space is Bumper's to destroy, and
-/// must not be in a space when that is destroyed.
+/// must not be gone when a call reads them: step(), claims(), keepUnclaimed(), save() and what
+/// takes a VehicleId; only updateBarrier() reads geoms of the application's. removeVehicle(),
+/// removeBarrier() and the destructor read neither. The new geom of a barrier may be destroyed with
+/// its space, or by itself unless in a quadtree space, and be moved to a space connected with the
+/// old one: one is in the other, or both are in a third. Its walls act until removeBarrier(). A
+/// geom made in no space is destroyed by Bumper, and must not be in a space when that is destroyed.
 ///
-/// Set-up calls throw Error and then change nothing; step(),
-/// claims() and keepUnclaimed() do not throw, unless memory runs out. A responder that was moved
-/// from can only be destroyed or assigned to. One responder belongs to one thread at a time; see
-/// trimeshLock() for several.
+/// Set-up calls throw Error and then change nothing; step(), claims() and keepUnclaimed() do not
+/// throw, unless memory runs out. A moved-from responder can only be destroyed or assigned to. One
+/// responder belongs to one thread at a time; see trimeshLock() for several.
 class Responder {
  public:
   /// Throws Error if the world is null, ODE is not in double precision, or a setting is invalid.
@@ -104,39 +102,39 @@ class Responder {
 
   /// The walls of a scene, as a new trimesh geom in `options.space`, or as the shape of
   /// `options.geom`. Other bodies collide with that geom as with any other. The scene is copied.
-  /// With a new geom its space gets another one, by which Bumper learns of the space's end: a
-  /// sphere without size on a body of Bumper's, disabled, without category and collide bits. No
-  /// near callback gets it, but dSpaceGetNumGeoms() counts it; leave it alone. Throws Error if the
-  /// scene is invalid or has no wall.
+  /// With a new geom its space gets a second one, by which Bumper detects the destruction of the
+  /// space: a sphere of radius 0 on a body of Bumper's, disabled, without category and collide
+  /// bits. No near callback receives it, but dSpaceGetNumGeoms() counts it; do not change it.
+  /// Throws Error if the scene is invalid or has no wall.
   BarrierId addBarrier(const Scene& scene, const BarrierOptions& options = {});
 
   /// A geom that the application already has: the walls of a trimesh, road and walls in one, the
   /// sides of a box, a plane, which is half of the world, or an upright cylinder. It must stand
-  /// still from now on, or updateBarrier() be called. ODE keeps a trimesh's vertices in single
-  /// precision, and so they are read. Throws Error if it is of another class, has a body, is
+  /// still from now on, or updateBarrier() be called. ODE stores a trimesh's vertices in single
+  /// precision; they are read as stored. Throws Error if it is of another class, has a body, is
   /// registered already or has no wall.
   BarrierId addBarrier(dGeomID geom, const BarrierOptions& options = {});
 
   /// Call after the application has moved or changed a barrier's geom: its walls are read anew. Of
   /// a barrier made from a scene, or whose shape is given as one, the scene as it is now takes the
-  /// old one's place; its own geom is then a new one, in the same space. Id, name and settings
-  /// stay, and so does what vehicles are doing with it; one that it was moved into is eased out,
-  /// not pushed. The last step's events are void. Costs as much as adding it. Throws Error as
-  /// addBarrier() does, and if the barrier's own geom was destroyed.
+  /// old one's place; its own geom is then a new one, in the same space. Id, name, settings and the
+  /// contacts of vehicles are kept; a vehicle that it was moved into is freed by penetration
+  /// recovery, without an impulse. The last step's events are void. Costs as much as adding it.
+  /// Throws Error as addBarrier() does, and if the barrier's own geom was destroyed.
   void updateBarrier(BarrierId barrier);
   void updateBarrier(BarrierId barrier, const Scene& scene);
 
-  /// The geom that a barrier's contacts come with: the new one, which is null once its space was
-  /// destroyed, or the application's own.
+  /// The geom in a barrier's contacts: the new one, which is null once its space was destroyed, or
+  /// the application's own.
   [[nodiscard]] dGeomID geom(BarrierId barrier) const;
 
-  /// What was kept of a barrier's mesh, and what was dropped.
+  /// Which parts of a barrier's mesh were kept or dropped as walls.
   [[nodiscard]] const WallReport& report(BarrierId barrier) const;
 
   /// A vehicle: its chassis with linked bodies. Throws Error if a parameter is invalid, a body is
   /// null, registered already or of another world, or if the bodies' mass or yaw inertia differs
-  /// from the parameters by more than 1 % or 5 %: the impulse would not be the law's. The bodies'
-  /// own values are what is used from then on.
+  /// from the parameters by more than 1 % or 5 %: the impulse would be wrong. From then on the
+  /// bodies' own values are used.
   VehicleId addVehicle(dBodyID chassis, const VehicleParameters& parameters,
                        const VehicleOptions& options = {});
 
@@ -144,13 +142,13 @@ class Responder {
   void removeBarrier(BarrierId barrier);
   void removeVehicle(VehicleId vehicle);
 
-  /// Whether every contact of this pair is Bumper's, so that the near callback can return at once.
-  /// Either order of the geoms. False is no promise: go on with dCollide and keepUnclaimed().
+  /// Whether Bumper owns every contact of this pair, so that the near callback can return at once.
+  /// Either order of the geoms. If false, call dCollide and keepUnclaimed().
   [[nodiscard]] bool claims(dGeomID a, dGeomID b) const;
 
-  /// Takes Bumper's contacts out of what dCollide(a, b, …) gave, keeps the others in their order in
-  /// front, and returns how many they are. What a contact touches is said by its own geoms: a and b
-  /// may be spaces or geom transforms, in either order.
+  /// Removes Bumper's contacts from the result of dCollide(a, b, …), moves the others to the front
+  /// in their order, and returns their number. Each contact is judged by its own geoms: a and b may
+  /// be spaces or geom transforms, in either order.
   int keepUnclaimed(dGeomID a, dGeomID b, dContact* contacts, int count) const;
 
   /// Finds the impacts of the coming step of `h` seconds and adds their forces to the bodies. The
@@ -158,17 +156,17 @@ class Responder {
   /// registered. Vehicles that ODE has put to sleep stay asleep.
   std::span<const ImpactEvent> step(double h);
 
-  /// Where a vehicle is: the common mass centre of its bodies, world, m, and the turn from its axes
-  /// to the world's, of unit length, as ODE has them now.
+  /// A vehicle's current pose in ODE: the common mass centre of its bodies, world, m, and the
+  /// rotation from its axes to the world's, a unit quaternion.
   [[nodiscard]] Eigen::Vector3d position(VehicleId vehicle) const;
   [[nodiscard]] Eigen::Quaterniond orientation(VehicleId vehicle) const;
 
-  /// A vehicle's velocity, m/s, and yaw rate about its own z axis, rad/s, with what is still to be
-  /// delivered: after the last impact, by the law.
+  /// A vehicle's velocity, m/s, and yaw rate about its own z axis, rad/s, with the pending impulse:
+  /// after the last impact, by the law.
   [[nodiscard]] Eigen::Vector3d velocity(VehicleId vehicle) const;
   [[nodiscard]] double yawRate(VehicleId vehicle) const;
 
-  /// What this responder remembers from step to step. Together with the bodies' states in ODE it
+  /// What this responder remembers from step to step. With the bodies' states in ODE the simulation
   /// continues bit for bit.
   [[nodiscard]] SavedState save() const;
   /// Throws Error, and changes nothing, unless the same vehicles and barriers are registered as
@@ -182,11 +180,11 @@ class Responder {
   [[nodiscard]] unsigned issues() const;
   [[nodiscard]] unsigned issues(VehicleId vehicle) const;
 
-  /// What set-up calls noticed of the vehicles and barriers that are registered. Falsifies an
-  /// impulse: damping, speed limits, jointed bodies that are not linked. Lets a vehicle into walls:
-  /// geoms that stand out of the outline within the band by more than 1 cm, with the figure. Is not
-  /// what it should be: gravity that does not point along −z, a mass centre so low that geoms would
-  /// be in the ground. Each is said once; valid until the next set-up call.
+  /// Warnings of set-up calls about the registered vehicles and barriers. What falsifies an
+  /// impulse: damping, speed limits, jointed bodies that are not linked. What lets a vehicle
+  /// penetrate walls: geoms that project from the outline within the band by more than 1 cm, with
+  /// the figure. What is inconsistent: gravity that does not point along −z, a mass centre so low
+  /// that geoms would be in the ground. Each is given once; valid until the next set-up call.
   [[nodiscard]] std::span<const std::string> warnings() const;
 
   struct Implementation;  ///< in the library's own sources

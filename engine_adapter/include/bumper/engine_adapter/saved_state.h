@@ -11,13 +11,13 @@
 /// world frame unless said otherwise.
 namespace bumper {
 
-/// The walls with one of a barrier's settings, which a vehicle passes through: they broke, and the
+/// The walls with one of a barrier's settings that a vehicle passes through: they broke and the
 /// outline has not left them yet, or their long force pulse still runs.
-struct Passage {
+struct PassableSurface {
   BarrierId barrier;
   int settings = 0;    ///< number of the settings in the barrier
   double until = 0.0;  ///< end of the pulse; 0 if they broke
-  double depth = 0.0;  ///< how deep the pulse lets the vehicle in, m
+  double depth = 0.0;  ///< penetration that the pulse allows, m
 };
 
 /// A contact that has begun and not ended.
@@ -29,7 +29,7 @@ struct SustainedContact {
   double impulseNormal = 0.0;   ///< N s, the sum
   double impulseTangent = 0.0;  ///< N s, the sum
   double energyLost = 0.0;      ///< J, the sum
-  double load = 0.0;            ///< N, along the normal: the largest of late, fading
+  double load = 0.0;            ///< N, along the normal: the recent maximum, decaying
   Eigen::Vector3d contact = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
 };
@@ -44,15 +44,15 @@ struct LastDelivery {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };
 
-/// What the last step's known forces should have led to, where joints act as well and a pulse goes
-/// on.
+/// The motion predicted from the last step's known forces, where joints act too and a pulse
+/// continues.
 struct Expectation {
   double step = 0.0;                                   ///< s; 0: nothing is expected
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< of the mass centre, m/s
   double yawRate = 0.0;
 };
 
-/// A guard contact of the last step, and what it did.
+/// A guard contact of the last step, and its force.
 struct GuardLoad {
   BarrierId barrier;
   int wall = 0;  ///< number in the barrier
@@ -66,10 +66,10 @@ struct GuardLoad {
 /// All that is remembered of a vehicle.
 struct VehicleMemory {
   VehicleId vehicle;
-  ForcePulse pulse;  ///< what is still to be delivered, in the vehicle's axes at the last step
+  ForcePulse pulse;  ///< not yet delivered, in the vehicle's axes at the last step
   LastDelivery delivery;
   Expectation expectation;
-  std::vector<Passage> passages;
+  std::vector<PassableSurface> passable;
   std::vector<SustainedContact> contacts;
   std::vector<GuardLoad> guards;  ///< in a saved state only
 };

@@ -30,10 +30,10 @@ Band defaultBand(const VehicleParameters& vehicle);
 Band plateBand(const VehicleParameters& vehicle);
 
 struct VehicleOptions {
-  /// What events call the vehicle; empty: "vehicle <number>".
+  /// The name in events; empty: "vehicle <number>".
   std::string name{};
-  /// Bodies that move with the chassis as one: wheels on their joints. They share every impulse as
-  /// parts of one rigid body would. A trailer is a vehicle of its own. Copied by addVehicle.
+  /// Bodies that move with the chassis as one, such as wheels on joints. They share every impulse
+  /// as parts of one rigid body would. A trailer is a vehicle of its own. Copied by addVehicle.
   std::span<const dBodyID> linkedBodies{};
   /// Default: defaultBand() of the parameters, or plateBand() if the responder follows
   /// Method::paper.
@@ -53,11 +53,11 @@ VehicleParameters parametersFromBodies(dBodyID chassis, std::span<const dBodyID>
                                        double width, double massCentreHeight);
 
 /// The same with an outline that encloses the bodies' geoms as they lie now, at whatever height.
-/// The mass centre lies in the middle of the width: it is twice the way to the farther side. Boxes,
-/// spheres, capsules, cylinders, convexes, trimeshes and geom transforms are measured; heightfields
-/// and classes of the application's own cannot be, nor a convex in a geom transform, and are left
-/// out, as are rays and geoms without category and collide bits. Throws Error on a null body, if
-/// nothing can be measured, or if the mass centre does not lie between the geoms' ends.
+/// The width is twice the distance from the mass centre to the farther side. Boxes, spheres,
+/// capsules, cylinders, convexes, trimeshes and geom transforms are measured; heightfields and
+/// classes of the application's own cannot be, nor a convex in a geom transform, and are left out,
+/// as are rays and geoms without category and collide bits. Throws Error on a null body, if nothing
+/// can be measured, or if the mass centre does not lie between the geoms' ends.
 VehicleParameters parametersFromGeoms(dBodyID chassis, std::span<const dBodyID> linkedBodies,
                                       double massCentreHeight);
 

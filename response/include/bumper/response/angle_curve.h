@@ -60,7 +60,8 @@ class AngleCurve {
   std::vector<std::pair<double, double>> points_;
 };
 
-/// What the angle of attack is measured by; the paper's text allows the second and the third.
+/// The direction that defines the angle of attack; the paper's text allows the second and the
+/// third.
 enum class AngleDefinition {
   contact_velocity,  ///< the direction in which the contact point moves
   centre_velocity,   ///< the direction in which the mass centre moves

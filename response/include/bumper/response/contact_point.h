@@ -26,8 +26,8 @@ ContactPoint firstPoint(const Vector2& position, const Overlap& overlap);
 ContactPoint contactPoint(const Outline& outline, const Placement& at, const Segment& wall,
                           const Overlap& overlap, double penetration);
 
-/// How far the outline is to be moved along the normal, m, so that its deepest point is
-/// `penetration` inside the wall: within bounds as contactPoint() says.
+/// How far to move the outline along the normal, m, so that its deepest point is `penetration`
+/// inside the wall, bounded as in contactPoint().
 double moveTo(const Overlap& overlap, const Vector2& position, double penetration);
 
 /// Up to seven contact points.
@@ -39,9 +39,8 @@ struct ContactPoints {
   [[nodiscard]] std::span<const ContactPoint> all() const { return {points.data(), count}; }
 };
 
-/// The first point, and after it all that touches or overlaps along the overlap's normal: the
-/// outline's corners behind the wall, over its length, and the wall's ends behind the outline's
-/// sides.
+/// The first point, then all points that touch or overlap along the overlap's normal: the outline's
+/// corners behind the wall, over its length, and the wall's ends behind the outline's sides.
 ContactPoints touchingPoints(const Outline& outline, const Placement& at, const Segment& wall,
                              const Overlap& overlap);
 

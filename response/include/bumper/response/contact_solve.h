@@ -29,7 +29,7 @@ inline ContactBody contactBody(const PlanarBody& body, const Vector2& arm) {
           .yawRate = body.motion.yawRate};
 }
 
-/// How readily the contact point gives way to an impulse, 1/kg.
+/// Inverse effective mass at the contact point, 1/kg.
 struct ContactMobility {
   double normal = 0.0;    ///< A: normal velocity per normal impulse
   double tangent = 0.0;   ///< B: tangential velocity per tangential impulse
@@ -76,7 +76,7 @@ inline Vector2 pointVelocity(const ContactBody& body) {
   return body.velocity + body.yawRate * turnedLeft(body.arm);
 }
 
-/// Of a body's contact point against what is at rest.
+/// Of a body's contact point relative to a body at rest.
 inline ContactVelocity contactVelocity(const ContactBody& body, const Vector2& normal) {
   const Vector2 velocity = pointVelocity(body);
   return {.normal = velocity.dot(normal), .tangent = velocity.dot(turnedLeft(normal))};

@@ -10,24 +10,23 @@ enum class EnergyRoot {
   break_through  ///< the smaller force: the vehicle loses energy and goes on through the wall
 };
 
-/// How the energy that an impact leaves compares with the energy asked for. Where several reasons
-/// apply: no_break_through before below_reach before limited_by_restitution before
-/// limited_by_friction.
+/// How the energy after an impact compares with the energy required. Where several reasons apply:
+/// no_break_through before below_reach before limited_by_restitution before limited_by_friction.
 enum class EnergyOutcome {
-  not_asked,               ///< another law answered
-  met,                     ///< the energy asked for remains
-  limited_by_restitution,  ///< the rebound it takes lies outside [0, maxRestitution]
-  limited_by_friction,     ///< the impulse it takes would drag the contact point backwards
-  below_reach,      ///< no impulse in this direction takes that much energy: the most is taken
+  not_asked,               ///< another law was used
+  met,                     ///< the required energy remains
+  limited_by_restitution,  ///< the rebound required lies outside [0, maxRestitution]
+  limited_by_friction,     ///< the impulse required would drag the contact point backwards
+  below_reach,      ///< no impulse in this direction dissipates that much: the most is dissipated
   no_break_through  ///< the smaller root does not let the vehicle through: it rebounds
 };
 
-/// What the energy method asks of one contact.
+/// The inputs of the energy method for one contact.
 struct EnergyDemand {
-  double energyRatio = 1.0;     ///< P: the fraction of energy that shall remain (Eq. 18), [0, 1]
+  double energyRatio = 1.0;     ///< P: the fraction of energy that is to remain (Eq. 18), [0, 1]
   double energyBefore = 0.0;    ///< E₁: yaw-plane energy before the impact (Eq. 25), J
   double friction = 0.0;        ///< μ ≥ 0 (Eq. 36)
-  double maxRestitution = 0.3;  ///< a rebound leaves with at most this times the approach speed
+  double maxRestitution = 0.3;  ///< rebound speed at most this times the approach speed
   EnergyRoot root = EnergyRoot::rebound;
 };
 
@@ -51,15 +50,15 @@ struct EnergySolution {
 };
 
 /// The kinetic energy loss method (Eqs. 18–35) within physical bounds. A rebound takes the larger
-/// root, or the impulse that takes most energy if there is no real root; its normal velocity is
-/// then kept within [0, maxRestitution] times the approach speed, and if the slip would be turned
-/// round the restitution law answers for that normal velocity. A break-through takes the smaller
-/// root if the contact point still approaches after it, but no faster than before.
+/// root, or the impulse that dissipates most if there is no real root; its normal velocity is then
+/// kept within [0, maxRestitution] times the approach speed, and if the slip would be reversed the
+/// restitution law applies for that normal velocity. A break-through takes the smaller root if the
+/// contact point still approaches after it, but no faster than before.
 EnergySolution solveEnergy(const ContactMobility& mobility, const ContactVelocity& before,
                            const EnergyDemand& demand);
 
-/// Eq. 32 as printed: the root that is asked for, without bounds; without a real root the impulse
-/// that takes most energy. A negative root (a pull) gives no impulse.
+/// Eq. 32 as printed: the requested root, without bounds; without a real root the impulse that
+/// dissipates most. A negative root (a pull) gives no impulse.
 EnergySolution solveEnergyAsPrinted(const ContactMobility& mobility, const ContactVelocity& before,
                                     const EnergyDemand& demand);
 

@@ -13,17 +13,17 @@ struct Impact {
   Vector2 point = Vector2::Zero();   ///< contact point on the wall, m
   Vector2 normal = Vector2::Zero();  ///< unit, out of the wall into the vehicle
   Vector2 arm = Vector2::Zero();     ///< the vehicle's mass centre to the contact point, m
-  /// The other body's mass centre to the contact point, m; of no meaning for a fixed wall.
+  /// The other body's mass centre to the contact point, m; meaningless for a fixed wall.
   Vector2 otherArm = Vector2::Zero();
-  double depth = 0.0;  ///< of the overlap when it was noticed, m
+  double depth = 0.0;  ///< of the overlap when it was detected, m
 };
 
-/// What the response makes of an impact.
+/// The response to an impact.
 struct ImpactResponse {
   Law law = Law::restitution;
   double approachSpeed = 0.0;  ///< m/s, > 0 when closing
-  double restitution = 0.0;    ///< asked by e(α), or as it came out of the energy law
-  double friction = 0.0;       ///< asked by μ(α)
+  double restitution = 0.0;    ///< e(α), or the result of the energy law
+  double friction = 0.0;       ///< μ(α)
   double energyAsked = 1.0;    ///< P(α); NaN under the restitution law
   double energyRatio = 1.0;    ///< yaw-plane energy of all free bodies after / before
   EnergyOutcome outcome = EnergyOutcome::not_asked;
@@ -42,16 +42,16 @@ AttackDirection attackDirection(const Impact& impact, const PlanarMotion& motion
 /// Its angle by all three definitions.
 AnglesOfAttack anglesOfAttack(const Impact& impact, const PlanarMotion& motion);
 
-/// What becomes of the rebound that the settings ask for.
+/// How the rebound of the settings is modified.
 enum class Rebound {
   as_set,
-  none,     ///< the contact point stays: many impacts at one instant come to an end
-  elastic,  ///< it leaves as fast as it came, the restitution law answers: a contact that lasts is
-            ///< held by many small impacts, none of which may take energy
+  none,     ///< the contact point does not rebound: ends a series of impacts at one instant
+  elastic,  ///< as fast as the approach, by the restitution law: a lasting contact is carried by
+            ///< many small impacts, none of which may dissipate energy
 };
 
-/// The response to an impact on a fixed wall: reads the curves at the angle of attack and asks the
-/// law.
+/// The response to an impact on a fixed wall: reads the curves at the angle of attack and evaluates
+/// the law.
 ImpactResponse respond(const Impact& impact, const PlanarBody& vehicle,
                        const ResponseSettings& settings, Rebound rebound = Rebound::as_set);
 
@@ -61,8 +61,8 @@ ImpactResponse respond(const Impact& impact, const PlanarBody& vehicle,
 ImpactResponse respond(const Impact& impact, const PlanarBody& vehicle, const PlanarBody& other,
                        const ResponseSettings& settings, Rebound rebound = Rebound::as_set);
 
-/// The response to an impact on a fixed wall by an impulse that no law asked for: it is one of
-/// those that end the approach at several points at once.
+/// The response to an impact on a fixed wall by a given impulse, without a law: one of those that
+/// end the approach at several points at once.
 ImpactResponse plainResponse(const Impact& impact, const PlanarBody& vehicle,
                              const PlanarImpulse& impulse);
 

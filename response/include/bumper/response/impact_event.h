@@ -8,19 +8,19 @@
 namespace bumper {
 
 enum class EventPhase {
-  impact,         ///< one impulse with an approach speed above the settings' rest speed, or above
-                  ///< five times that while a contact lasts; or a load, with which others press
-                  ///< the vehicle against the barrier, that rises to twice what it was of late: its
-                  ///< approach speed is that before the step, and no law was asked
-  contact_begin,  ///< slower ones, step by step, begin: the vehicle leans on the barrier or scrapes
-                  ///< along it
+  impact,  ///< one impulse with an approach speed above the settings' rest speed, or above
+           ///< five times that while a contact lasts; or an external load on the vehicle against
+           ///< the barrier that rises to twice its recent maximum: its approach speed is that
+           ///< before the step, and no law was evaluated
+  contact_begin,  ///< slower impacts in successive steps begin: the vehicle rests against the
+                  ///< barrier or scrapes along it
   contact_end     ///< they have ended; impulses, energyLost and duration are those of the whole
                   ///< contact
 };
 
-/// One impact as an application sees it. SI units; vectors in the world frame (right-handed, z up)
-/// unless they say otherwise; yaw rates about the vehicle's own z axis, positive turning left. The
-/// names stay valid as long as the vehicle and the barrier are registered.
+/// One impact, for applications. SI units; vectors in the world frame (right-handed, z up) unless
+/// they say otherwise; yaw rates about the vehicle's own z axis, positive turning left. The names
+/// stay valid as long as the vehicle and the barrier are registered.
 struct ImpactEvent {
   double time = 0.0;  ///< of the impact within its step, counted by the steps taken, s
   EventPhase phase = EventPhase::impact;

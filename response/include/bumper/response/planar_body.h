@@ -9,7 +9,7 @@
 namespace bumper {
 
 /// A rigid body in a yaw plane. A free one has finite mass and yaw inertia; a fixed one, the
-/// default, has neither and is at rest; a driven one has neither and moves as somebody says.
+/// default, has neither and is at rest; a driven one has neither and moves as prescribed.
 struct PlanarBody {
   double mass = std::numeric_limits<double>::infinity();  ///< kg, > 0
   double yawInertia =
@@ -23,7 +23,7 @@ struct PlanarBody {
     motion = afterImpulse(motion, impulse, mass, yawInertia);
   }
 
-  /// Of a free body, J (Eq. 25). What drives another one has no bounds: of that, 0.
+  /// Of a free body, J (Eq. 25); 0 for others.
   [[nodiscard]] double energy() const {
     return isFree() ? yawPlaneEnergy(motion, mass, yawInertia) : 0.0;
   }

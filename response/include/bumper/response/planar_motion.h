@@ -47,7 +47,7 @@ struct PlanarMotion {
   [[nodiscard]] Placement placement() const { return {position, yaw}; }
 };
 
-/// Where free flight at constant velocity and yaw rate carries a body within some time, s.
+/// The motion after `time` seconds of free flight at constant velocity and yaw rate.
 PlanarMotion advanced(PlanarMotion motion, double time);
 
 /// Velocity of the body point at `arm` from the mass centre (both in the plane's frame).

@@ -25,26 +25,25 @@ ResponseSettings paperSettings();
 /// from 0 to 0.3 in typical vehicle collisions. He gives ranges and no dependence on the angle, so
 /// this is the middle of both, e = μ = 0.15, at every angle.
 ///
-/// For typical collisions when nothing is known of this one. What the choice within the ranges
-/// amounts to shows when it is run at their ends: the exit speed of the two redirective crash tests
-/// is met within 1.5 % by the middle, and within 10 % by either end. The energy law is not his: P
-/// stays the paper's.
+/// For typical collisions when nothing more is known. The effect of the choice within the ranges is
+/// seen at their ends: the exit speed of the two redirective crash tests is met within 1.5 % by the
+/// middle, and within 10 % by either end. The energy law is not his: P stays the paper's.
 ResponseSettings macmillanSettings();
 
 /// "modern_car": head-on restitution 0.17 as measured on a 2018 Toyota Camry at 57 km/h into a
 /// rigid wall (NHTSA test 10146), by either law: e = 0.17 and P = 0.17² at 90°. Towards grazing,
-/// where that test says nothing, the paper's curves.
+/// which that test does not cover, the paper's curves.
 ///
 /// For modern passenger cars, 60° to 90° against rigid walls at about 40 to 70 km/h. One car, one
 /// test: in slower collisions expect more rebound.
 ResponseSettings modernCarSettings();
 
-/// "reconstruction": a vehicle that hooks on the edge of a barrier. The contact point comes to
+/// "reconstruction": a vehicle that snags on the edge of a barrier. The contact point comes to
 /// rest: e = 0 and friction 1 as a fraction of the critical impulse ratio. It is found at the depth
 /// that is reached in 70 ms, more than a metre inside the outline at 64 km/h.
 ///
 /// From Brach's planar impact analysis of six small-overlap tests of the IIHS at 64 km/h. In the
-/// four in which the car hooks, the fraction fitted is 0.96 to 1 and e 0 to 0.15. 70 ms is the mean
+/// four in which the car snags, the fraction fitted is 0.96 to 1 and e 0 to 0.15. 70 ms is the mean
 /// of the times that suit each test, 52 to 82 ms.
 ///
 /// In those four the impulse at that point, respond()'s, gives the velocity change within 13 % and

@@ -16,17 +16,17 @@ enum class Law {
   energy        ///< the kinetic energy loss method
 };
 
-/// How walls answer. The defaults are the paper's.
+/// How walls respond. The defaults are the paper's.
 struct ResponseSettings {
   Method method = Method::bumper;
   Law law = Law::restitution;
-  /// What the curves below are read at.
+  /// The angle at which the curves below are read.
   AngleDefinition angle = AngleDefinition::contact_velocity;
   /// e(α), values in [0, 1] (Figure 4).
   AngleCurve restitution = AngleCurve::cosine(0.3, 0.05);
   /// μ(α), values ≥ 0; with fraction_of_critical in [0, 1].
   AngleCurve friction = AngleCurve::cosine(0.3, 0.0);
-  /// The energy law and Method::paper know coulomb only.
+  /// The energy law and Method::paper support coulomb only.
   Friction::Kind frictionKind = Friction::Kind::coulomb;
   /// P(α), values in [0, 1]: the fraction of yaw-plane energy that remains. Energy law only.
   AngleCurve energyRemaining = AngleCurve::cosine(0.92, 0.04);
@@ -38,15 +38,15 @@ struct ResponseSettings {
   /// Method::bumper only; response/README.md says how the default was chosen.
   double penetrationTime = 0.0025;
   /// Length of the force pulse, s, ≥ 0, which starts at the impact; 0: one step. With a longer one
-  /// the wall is not answered again while its pulse runs, and the vehicle goes into it by about
+  /// the wall causes no further impact while its pulse runs, and the vehicle penetrates it by about
   /// v_n · contactTime / (2 (1 + e)).
   double contactTime = 0.0;
-  /// Restitution fades to 0 as the approach speed falls from this to 0, m/s, ≥ 0, so that a
-  /// vehicle that leans on a wall comes to rest. Slower contacts are no events.
+  /// Restitution fades to 0 as the approach speed falls from this to 0, m/s, ≥ 0, so that a vehicle
+  /// against a wall comes to rest. Slower contacts cause no impact events.
   double restSpeed = 0.1;
 };
 
-/// Whether what answers so can break, and let a vehicle through.
+/// Whether walls with these settings can break and let a vehicle through.
 inline bool breaks(const ResponseSettings& settings) {
   return settings.law == Law::energy && settings.energyRoot == EnergyRoot::break_through;
 }

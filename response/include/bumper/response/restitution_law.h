@@ -9,7 +9,7 @@ enum class Regime {
   separating,   ///< it does not approach: no impulse
   sliding,      ///< it keeps sliding in the same direction, at full friction
   sticking,     ///< friction ends the slip
-  reverse_slip  ///< the normal impulse turns the slip round, full friction opposes that
+  reverse_slip  ///< the normal impulse reverses the slip; full friction opposes the reversed slip
 };
 
 /// Friction at the contact, Eq. 36.
@@ -24,34 +24,34 @@ struct Friction {
   double value = 0.0;  ///< ≥ 0; a fraction of the critical ratio lies in [0, 1]
 };
 
-/// What a law answers for one contact point.
+/// A law's solution for one contact point.
 struct ContactSolution {
   ContactImpulse impulse;         ///< on the vehicle, N s
   ContactVelocity velocityAfter;  ///< of the contact point, m/s
-  double restitution = 0.0;       ///< −v_n'/v_n as it came out
+  double restitution = 0.0;       ///< −v_n'/v_n attained
   double impulseRatio = 0.0;      ///< J_t/J_n
   /// J_t/J_n that just ends the slip at this restitution; NaN where no compressive impulse does.
   double criticalRatio = 0.0;
   double energyChange = 0.0;  ///< J, ≤ 0
   Regime regime = Regime::separating;
-  bool restitutionLowered = false;  ///< the restitution asked for would have created energy
+  bool restitutionLowered = false;  ///< the requested restitution would have added energy
 };
 
 /// The coefficient-of-restitution method (Eqs. 3–17): the impulse after which the contact point
 /// leaves with −e v_n, friction opposing the slip that remains.
 ///
-/// It equals Eq. 17 wherever full friction does not turn the slip round. Where it would, Eq. 17
-/// drags the contact point backwards; here the impulse ratio stops at the critical one. Where the
-/// restitution asked for would create energy (never seen within the paper's 0 to 0.3 for both e and
-/// μ), it is lowered until none is created, and `restitutionLowered` says so.
+/// It equals Eq. 17 wherever full friction does not reverse the slip. Where it would, Eq. 17 drags
+/// the contact point backwards; here the impulse ratio stops at the critical one. Where the
+/// requested restitution would add energy (never seen within the paper's 0 to 0.3 for both e and
+/// μ), it is lowered until none is added, and `restitutionLowered` is set.
 ///
 /// `restitution` lies in [0, 1]. All but criticalRatio is finite for finite input with A > 0, B >
 /// 0, A B > C².
 ContactSolution solveRestitution(const ContactMobility& mobility, const ContactVelocity& before,
                                  double restitution, const Friction& friction);
 
-/// Eq. 17 as printed: full friction against the initial slip, whatever that leads to. Only the test
-/// for a separating contact is added, and no impulse where h − μk ≤ 0.
+/// Eq. 17 as printed: full friction against the initial slip, even if that reverses it. Added are
+/// only the test for a separating contact, and no impulse where h − μk ≤ 0.
 ContactSolution solveRestitutionAsPrinted(const ContactMobility& mobility,
                                           const ContactVelocity& before, double restitution,
                                           double friction);

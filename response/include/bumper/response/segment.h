@@ -6,18 +6,18 @@ namespace bumper {
 
 struct ResponseSettings;
 
-/// A piece of a wall as a vehicle's yaw plane cuts it: a line segment, or the round of a post.
+/// The section of a wall with a vehicle's yaw plane: a line segment, or the circle of a post.
 struct Segment {
   Vector2 start = Vector2::Zero();  ///< m; of a post the centre
   Vector2 end = Vector2::Zero();    ///< m; of a post the centre too
   /// Unit, at right angles to the segment, to either side unless `solid`: which side the vehicle
-  /// comes from is decided when they meet. Of no meaning for a post.
+  /// comes from is decided at contact. Meaningless for a post.
   Vector2 normal = Vector2::Zero();
   /// Of a post, m; 0 for a line segment.
   double radius = 0.0;
-  /// What lies behind the normal is solid: only the front can be hit.
+  /// The space behind the normal is solid: only the front can be hit.
   bool solid = false;
-  /// The caller's own number; comes back in the impact.
+  /// The caller's own number; returned in Impact::wall.
   int id = -1;
   /// Its number among the surfaces that are given with the segments.
   int surface = 0;
@@ -25,13 +25,13 @@ struct Segment {
   [[nodiscard]] bool isPost() const { return radius > 0.0; }
 };
 
-/// What segments answer with. Segments in line whose surfaces have the same settings object are one
-/// wall; those that break, or are entered, only if their surface is the same.
+/// How segments respond. Collinear segments whose surfaces share a settings object are one wall;
+/// those that break, or are entered, only if they share the surface.
 struct Surface {
   /// Not owned, never null.
   const ResponseSettings* settings = nullptr;
-  /// A long force pulse of this surface runs: it is not answered, and the outline may be as deep in
-  /// it as `depth`, m.
+  /// A long force pulse of this surface runs: it causes no further impact, and `depth` is the
+  /// penetration allowed, m.
   bool entered = false;
   double depth = 0.0;
 };

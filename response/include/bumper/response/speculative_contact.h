@@ -8,33 +8,31 @@
 
 namespace bumper {
 
-/// A point in which outline and wall may meet within a step: what an engine's own solver has to
-/// know so that nothing pushes the vehicle through. In the frame of the motion that it was found
-/// for.
+/// A point where outline and wall may meet within a step: a constraint for an engine's own solver,
+/// so that no load pushes the vehicle through. In the frame of the motion that it was found for.
 struct SpeculativeContact {
   int wall = -1;                     ///< Segment::id
   int surface = 0;                   ///< Segment::surface
   Vector2 normal = Vector2::Zero();  ///< unit, out of the wall into the vehicle
   /// Mass centre to the point of the outline, m, as the vehicle stands at the step's end.
   Vector2 arm = Vector2::Zero();
-  Vector2 velocity = Vector2::Zero();  ///< of the point in this step if nothing else pushes, m/s
-  double gap = 0.0;   ///< between them at the step's end, along the normal, m; negative: so deep
-  double room = 0.0;  ///< by how much nearer the point may come than that, m, > 0
+  Vector2 velocity = Vector2::Zero();  ///< of the point in this step without other loads, m/s
+  double gap = 0.0;  ///< between them at the step's end, along the normal, m; negative: penetration
+  double room = 0.0;  ///< by how much the gap may still decrease, m, > 0
 
-  /// The least speed that the point must have along the normal in the step, m/s.
+  /// The minimum speed that the point must have along the normal in the step, m/s.
   [[nodiscard]] double leastSpeed(double step) const { return normal.dot(velocity) - room / step; }
 };
 
-/// The points in which an outline may meet walls: its corners and their faces, their ends and posts
-/// and its sides. Of these the two nearest for each corner and each third of a side, so that
-/// however many pieces a wall has, no part of the outline is left open.
+/// The points where an outline may meet walls: its corners on wall faces, wall ends and posts on
+/// its sides. The two nearest are kept for each corner and each third of a side, so that all parts
+/// of the outline are covered, however many pieces a wall has.
 ///
-/// What is demanded is linear about the pose at the step's end. So it is without effect on a
-/// vehicle that nothing pushes, at whatever speed and yaw rate; and turning further lifts a corner
-/// off the wall.
+/// The constraint is linearized about the pose at the step's end. So it has no effect on a vehicle
+/// without other loads, at any speed and yaw rate; and turning further lifts a corner off the wall.
 class SpeculativeContacts {
  public:
-  /// So many for each corner, each third of a side, and for what touches by a wall's end.
+  /// The number kept for each corner, each third of a side, and for contacts at wall ends.
   static constexpr std::size_t perPlace = 2;
   static constexpr std::size_t most = perPlace * (4 + 4 * 3 + 1);
 
@@ -42,8 +40,8 @@ class SpeculativeContacts {
   /// end if nothing but walls acts. `distance`, m, is the largest gap of interest.
   void begin(const Outline& outline, const PlanarMotion& start, const PlanarMotion& end,
              double distance, double step);
-  /// `touch` is what findTouch() says at the start, or null. `depth`, m, is how deep the outline
-  /// may be in this wall.
+  /// `touch` is the result of findTouch() at the start, or null. `depth` is the penetration
+  /// allowed, m.
   void addWall(const Segment& wall, const Overlap* touch, double depth);
   [[nodiscard]] std::span<const SpeculativeContact> all() const {
     return {contacts_.data(), count_};

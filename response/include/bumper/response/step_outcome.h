@@ -12,26 +12,24 @@ namespace bumper {
 /// The impulse that ends the approach at several points at once is reported as one impact for each
 /// of them, the fastest first. No motion between these existed, and it may be fast where walls face
 /// each other. So approachSpeed is the one before all of them; energyChange and energyRatio are
-/// shares, none of which gains, of what all of them together do to the energy.
+/// shares of the total energy change; no share is a gain.
 struct StepImpact {
   double time = 0.0;  ///< of the impact, s from the step's start
   Impact impact{};
   ImpactResponse response{};
-  /// A part of a contact that lasts within the step: an end of a wall that a turning side slides
-  /// along.
+  /// Part of a sliding contact within the step: a wall's end along a turning side.
   bool slides = false;
-  /// This one and the next are parts of one impulse: what holds of an impulse's energy holds of
-  /// them together.
+  /// This one and the next are parts of one impulse: energy bounds hold for their sum.
   bool isPartOfNext = false;
 };
 
-/// A velocity and yaw rate for one step only: penetration recovery, or what holds a vehicle back.
+/// A velocity and yaw rate for one step only: penetration recovery, or holding a vehicle in place.
 struct StepShift {
   Vector2 velocity = Vector2::Zero();  ///< m/s
   double yawRate = 0.0;                ///< rad/s
 };
 
-/// What its walls do to a vehicle in one step.
+/// The effect of walls on a vehicle in one step.
 struct StepOutcome {
   /// In the order in which they act; valid until the next call.
   std::span<const StepImpact> impacts;

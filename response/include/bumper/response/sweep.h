@@ -9,11 +9,11 @@ namespace bumper {
 /// A contact point that approaches more slowly than this, m/s, is at rest to rounding.
 inline constexpr double restTolerance = 1e-9;
 
-/// The time of what does not happen, later than any other.
+/// The time of an event that does not occur, later than any other.
 inline constexpr double never = std::numeric_limits<double>::max();
 
-/// How long it takes at least, s, to go a distance, m, at a rate, m/s, whose own rate is no more
-/// than `acceleration`, m/s². A negative rate leads away first.
+/// The least time, s, to cover a distance, m, from an initial rate, m/s, with a maximum
+/// acceleration, m/s². A negative rate moves away at first.
 double leastTime(double distance, double rate, double acceleration);
 
 /// Continuous collision detection: the outline in free flight from time 0 on, at constant velocity
@@ -25,9 +25,9 @@ class Sweep {
 
   /// The first time in [from, until], s, at which a point of the outline and a point of the wall
   /// touch while they approach each other: a corner and a face, an end and a side, a post and
-  /// either. `touch` is what findTouch() says at `from`, or null. `never` if there is none. Exact
-  /// to rounding, whatever the speed and the step. Points that are in each other already count
-  /// again once they have parted.
+  /// either. `touch` is the result of findTouch() at `from`, or null. `never` if there is none.
+  /// Exact to rounding, whatever the speed and the step. Points that already overlap count again
+  /// once they have separated.
   [[nodiscard]] double timeOfTouch(const Segment& wall, const Overlap* touch, double from,
                                    double until) const;
 

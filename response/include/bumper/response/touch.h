@@ -43,15 +43,13 @@ Vector2 normalTowards(const Segment& wall, const Vector2& position);
 /// normal points to the side of `position`, unless the wall is solid.
 Overlap lineOf(const Segment& wall, const Vector2& position);
 
-/// The overlap of the outline, placed somewhere, with a wall; nothing if the wall
-/// does not pass through it. The normal is the wall's own, towards the mass centre: the paper's
-/// view.
+/// The overlap of the outline at a pose with a wall; nothing if the wall does not intersect it. The
+/// normal is the wall's own, towards the mass centre, as in the paper.
 std::optional<Overlap> findOverlap(const Outline& outline, const Placement& at,
                                    const Segment& wall);
 
 /// The same within touchTolerance, and along the direction in which outline and wall overlap least:
-/// a face of the wall that a corner or side meets, or a side of the outline that an end of the wall
-/// meets.
+/// a face of the wall met by a corner or side, or a side of the outline met by an end of the wall.
 std::optional<Overlap> findTouch(const Outline& outline, const Placement& at, const Segment& wall);
 
 }  // namespace bumper

@@ -2,8 +2,8 @@
 
 namespace bumper {
 
-/// What the response needs to know of a vehicle: the six parameters of the paper's section
-/// "Initialization". The four dimensions span the outline, a rectangle in the vehicle's yaw plane.
+/// The vehicle data of the response: the six parameters of the paper's section "Initialization".
+/// The four dimensions span the outline, a rectangle in the vehicle's yaw plane.
 struct VehicleParameters {
   /// Whole vehicle, kg. Positive.
   double mass = 0.0;

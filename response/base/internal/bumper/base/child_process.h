@@ -16,7 +16,7 @@ struct ChildStreams {
   bool errors = false;  ///< kept for ChildProcess::lastErrorLine()
 };
 
-/// A running program that does not outlive the object. No signal is blocked or ignored in it, it
+/// A child process that does not outlive the object. No signal is blocked or ignored in it, it
 /// holds no other child's streams, and no shell takes part.
 class ChildProcess {
  public:

@@ -1,5 +1,5 @@
 // Walls that a vehicle passes through: those that broke are left out until the outline has left
-// them; those whose long force pulse runs are not answered until it ends.
+// them; those whose long force pulse runs cause no further impact until it ends.
 
 #include <algorithm>
 
@@ -7,13 +7,13 @@
 
 namespace bumper {
 
-void Responder::Implementation::applyPassages(Vehicle& vehicle) const {
+void Responder::Implementation::applyPassableSurfaces(Vehicle& vehicle) const {
   NearbyWalls& nearby = vehicle.nearby;
-  std::erase_if(vehicle.memory.passages, [&](const Passage& passage) {
-    const NearbyWalls::Owner owner{.barrier = passage.barrier, .settings = passage.settings};
-    if (passage.until > 0.0) {
-      if (!(time < passage.until)) return true;
-      nearby.enter(owner, passage.depth);
+  std::erase_if(vehicle.memory.passable, [&](const PassableSurface& surface) {
+    const NearbyWalls::Owner owner{.barrier = surface.barrier, .settings = surface.settings};
+    if (surface.until > 0.0) {
+      if (!(time < surface.until)) return true;
+      nearby.enter(owner, surface.depth);
       return false;
     }
     const std::span<const Segment> walls = nearby.all().segments;
