@@ -7,8 +7,6 @@
 namespace bumper::tests {
 namespace {
 
-Vector2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
-
 Vector2 randomArm(Random& random, const VehicleParameters& vehicle) {
   const double x = random.chance(0.5) ? vehicle.massCentreToFront : -vehicle.massCentreToRear;
   const double y = 0.5 * vehicle.width * random.sign();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <ostream>
 #include <random>
@@ -27,6 +28,9 @@ class Random {
  private:
   std::mt19937_64 engine_;
 };
+
+/// Unit; rad from the x axis.
+inline Vector2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
 
 /// Two bodies in contact at one point; `other` may be a barrier.
 struct Situation {

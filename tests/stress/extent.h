@@ -1,16 +1,24 @@
 #pragma once
 
+#include <initializer_list>
+#include <vector>
+
 namespace bumper::tests {
 
-/// How often something is done, or for how many seconds: a little by default, a lot in the program
-/// that is built with BUMPER_STRESS_LONG.
+/// Whether this is the program that takes minutes. The same objects are linked into it and into the
+/// one that takes seconds.
+extern const bool isLong;
+
+/// How often something is done, or for how many seconds: a little, or a lot in the long program.
 template <typename Number>
-constexpr Number extent([[maybe_unused]] Number little, [[maybe_unused]] Number much) {
-#ifdef BUMPER_STRESS_LONG
-  return much;
-#else
-  return little;
-#endif
+Number extent(Number little, Number much) {
+  return isLong ? much : little;
+}
+
+/// Parameters of tests of the long program alone.
+template <typename Parameter>
+std::vector<Parameter> inLong(std::initializer_list<Parameter> parameters) {
+  return isLong ? std::vector<Parameter>(parameters) : std::vector<Parameter>();
 }
 
 }  // namespace bumper::tests

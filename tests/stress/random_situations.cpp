@@ -10,8 +10,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Vector2 direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
-
 Plan twoWalls(double firstAngle, double opening) {
   return {{Vector2::Zero(), 40.0 * direction(firstAngle)},
           {Vector2::Zero(), 40.0 * direction(firstAngle + opening)}};

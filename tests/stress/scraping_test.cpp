@@ -14,10 +14,9 @@
 namespace bumper::tests {
 namespace {
 
-constexpr double radius = 100.0;                      // m
-constexpr double cruise = 30.0;                       // m/s
-constexpr double wayInAll = extent(500.0, 10'000.0);  // m
-constexpr double lean = 1.0;  // m/s²: the push against an outside rail beyond the centripetal
+constexpr double radius = 100.0;  // m
+constexpr double cruise = 30.0;   // m/s
+constexpr double lean = 1.0;      // m/s²: the push against an outside rail beyond the centripetal
 
 enum class Side { inside, outside };
 
@@ -113,6 +112,7 @@ TEST_P(Scraping, NeitherCatchesNorGainsNorSinksIn) {
   unsigned issues = 0;
   PlanarMotion before = motionOf(car.body);
   bool through = false;
+  const double wayInAll = extent(500.0, 10'000.0);  // m
   while (way < wayInAll && slowest > 1.0) {
     const Vector2 force = motor.force(before);
     const Vector2 push = scrape.step / car.parameters.mass * force;

@@ -144,14 +144,12 @@ INSTANTIATE_TEST_SUITE_P(Openings, Wedge,
                          ::testing::Values(Entry{1.0, 0.005}, Entry{5.0, 0.005}, Entry{20.0, 0.02},
                                            Entry{60.0, 0.005}),
                          nameOf);
-#ifdef BUMPER_STRESS_LONG
 INSTANTIATE_TEST_SUITE_P(MoreOpenings, Wedge,
-                         ::testing::Values(Entry{1.0, 0.001}, Entry{2.0, 0.02}, Entry{5.0, 0.02},
-                                           Entry{10.0, 0.001}, Entry{10.0, 0.005},
-                                           Entry{30.0, 0.005}, Entry{45.0, 0.02},
-                                           Entry{60.0, 0.001}),
+                         ::testing::ValuesIn(inLong({Entry{1.0, 0.001}, Entry{2.0, 0.02},
+                                                     Entry{5.0, 0.02}, Entry{10.0, 0.001},
+                                                     Entry{10.0, 0.005}, Entry{30.0, 0.005},
+                                                     Entry{45.0, 0.02}, Entry{60.0, 0.001}})),
                          nameOf);
-#endif
 
 // Without a push there is only energy to lose.
 TEST(WedgeWithoutPush, LosesEnergy) {

@@ -1,8 +1,12 @@
 #pragma once
 
 #include <ctime>
+#include <limits>
 
 namespace bumper::benchmark {
+
+/// A time before anything was measured.
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Measures how long something takes, ns. What is repeated takes the least of its times, so that
 /// being interrupted does not count. What takes longer than machines leave anyone alone is measured

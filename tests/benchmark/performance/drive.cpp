@@ -161,10 +161,6 @@ Nearness nearnessAt(const WallGrid& grid, const Outline& outline, const PlanPlac
   return gap <= nearDistance ? Nearness::near : Nearness::far;
 }
 
-double radiusOf(const Outline& outline) {
-  return std::hypot(std::max(outline.front, outline.rear), outline.halfWidth);
-}
-
 void turn(PlanPlace& place, const Vector2& direction) {
   place.cosine = direction.x();
   place.sine = direction.y();
@@ -191,7 +187,7 @@ Drive makeDrive(const Scene& scene, std::size_t poses) {
                          .reach = reach - (lap % 2 == 1 ? keptAway : 0.0)});
     }
   }
-  const WallGrid grid(scene, radiusOf(outline) + 2.0 * nearDistance);
+  const WallGrid grid(scene, outline.radius() + 2.0 * nearDistance);
   Drive drive;
   drive.poses.reserve(poses);
   std::vector<Nearness> kinds;
@@ -232,7 +228,7 @@ Drive makeDrive(const Scene& scene, std::size_t poses) {
 std::vector<PlanPlace> placesAlongCourse(const Scene& scene, std::size_t count, bool touching) {
   const Line line = courseLine();
   const Outline outline(queryCar());
-  const WallGrid grid(scene, radiusOf(outline));
+  const WallGrid grid(scene, outline.radius());
   std::vector<PlanPlace> places;
   for (std::size_t i = 0; i < count; ++i) {
     const double at = line.length() * static_cast<double>(i) / static_cast<double>(count);

@@ -10,16 +10,12 @@ namespace {
 // How far the outline comes in a step at most, m: more than CollisionStep::reach() of the drives.
 constexpr double farthestReach = 0.5;
 
-double radiusOf(const Outline& outline) {
-  return std::hypot(std::max(outline.front, outline.rear), outline.halfWidth);
-}
-
 }  // namespace
 
-GridQuery::GridQuery(const Scene& scene) : outline_(queryCar()), grid_(scene, radiusOf(outline_)) {}
+GridQuery::GridQuery(const Scene& scene) : outline_(queryCar()), grid_(scene, outline_.radius()) {}
 
 GridSweep::GridSweep(const Scene& scene)
-    : grid_(scene, radiusOf(Outline(queryCar())) + farthestReach) {}
+    : grid_(scene, Outline(queryCar()).radius() + farthestReach) {}
 
 std::size_t GridSweep::query() {
   count_ = 0;

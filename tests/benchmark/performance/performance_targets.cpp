@@ -86,22 +86,24 @@ std::string shortNumber(double value) {
 }
 
 std::vector<Target> targetsOf(const Performance& performance) {
-  const PerScene all(performance, scenesOf(performance));
-  const PerScene small(performance, {"S1", "S2", "S2g"});
-  const PerScene large(performance, {"S3", "S4"});
+  const PerScene allScenes(performance, scenesOf(performance));
+  const PerScene smallScenes(performance, {"S1", "S2", "S2g"});
+  const PerScene largeScenes(performance, {"S3", "S4"});
   std::vector<Target> targets = {
-      all.ratio("far step ≤ 0.05 of dWorldQuickStep of one free body", farOf, "world_step", 0.05),
-      all.value(
+      allScenes.ratio("far step ≤ 0.05 of dWorldQuickStep of one free body", farOf, "world_step",
+                      0.05),
+      allScenes.value(
           "far step ≤ 100 instructions", [](const QueryRow& row) { return row.instructions[0]; },
           100.0),
-      small.ratio("touching step ≤ ODE's dCollide with 8 contacts", touchOf, "ode_contacts", 1.0),
-      large.ratio("touching step ≤ 0.25 of it", touchOf, "ode_contacts", 0.25),
-      all.ratio("beside: touching step over dCollide with the walls alone", touchOf,
-                "ode_contacts_walls", std::nullopt),
-      all.ratio(
+      smallScenes.ratio("touching step ≤ ODE's dCollide with 8 contacts", touchOf, "ode_contacts",
+                        1.0),
+      largeScenes.ratio("touching step ≤ 0.25 of it", touchOf, "ode_contacts", 0.25),
+      allScenes.ratio("beside: touching step over dCollide with the walls alone", touchOf,
+                      "ode_contacts_walls", std::nullopt),
+      allScenes.ratio(
           "mean over the drive ≤ a hand-written grid with the same sweep",
           [](const QueryRow& row) { return row.pathMean; }, "grid_sweep", 1.0),
-      all.ratio(
+      allScenes.ratio(
           "memory ≤ 1.25 of ODE's mesh of the walls alone",
           [](const QueryRow& row) { return row.memory; }, "ode_contacts_walls", 1.25),
       PerScene(performance, {"S4"})

@@ -13,7 +13,6 @@ namespace bumper::benchmark {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr const char* teleport = "bumper_teleport";
 
 /// Memory of the heap that is in use, MB.

@@ -12,7 +12,6 @@ namespace bumper::benchmark {
 namespace {
 
 constexpr int stepsPerRun = 40;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// One whole step of one vehicle, ns: the mean over a run.
 double wholeStep(Fleet& fleet) {

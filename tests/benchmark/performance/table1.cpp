@@ -18,8 +18,6 @@ namespace bumper::benchmark {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// The paper's vehicle, in a world of its own.
 class Update {
  public:

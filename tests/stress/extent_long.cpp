@@ -1,0 +1,7 @@
+#include "extent.h"
+
+namespace bumper::tests {
+
+const bool isLong = true;
+
+}  // namespace bumper::tests
