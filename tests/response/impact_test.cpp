@@ -249,7 +249,7 @@ double closingSpeed(const Pair& pair, const PlanarMotion& first, const PlanarMot
 }
 
 Pair randomPair(Random& random) {
-  Pair pair{.hit = randomHit(random)};
+  Pair pair{.hit = randomHit(random), .first = {}, .second = {}};
   const Hit other = randomHit(random);
   pair.first = freeBody(pair.hit.vehicle, pair.hit.motion);
   pair.second = freeBody(other.vehicle, other.motion);
