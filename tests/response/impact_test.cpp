@@ -269,7 +269,8 @@ TEST(RespondOnAnotherBody, KeepsMomentumAndTheLaw) {
     ResponseSettings& settings = pair.hit.settings;
     settings.restSpeed = 0.0;
     settings.law = i % 2 == 0 ? Law::restitution : Law::energy;
-    const auto& [first, second] = std::pair(pair.first, pair.second);
+    const PlanarBody& first = pair.first;
+    const PlanarBody& second = pair.second;
     const ImpactResponse response = respond(pair.hit.impact, first, second, settings);
     const PlanarMotion& before = first.motion;
     const PlanarMotion& otherBefore = second.motion;

@@ -22,10 +22,10 @@ class CollisionStep {
  public:
   CollisionStep();
   ~CollisionStep();
-  CollisionStep(const CollisionStep&) = delete;
-  CollisionStep& operator=(const CollisionStep&) = delete;
-  CollisionStep(CollisionStep&&) noexcept;
-  CollisionStep& operator=(CollisionStep&&) noexcept;
+  CollisionStep(const CollisionStep& other) = delete;
+  CollisionStep& operator=(const CollisionStep& other) = delete;
+  CollisionStep(CollisionStep&& other) noexcept;
+  CollisionStep& operator=(CollisionStep&& other) noexcept;
 
   /// The maximum number of impulses in one step. The last of them ends all approach, and the
   /// vehicle is held where it is until the next step.
