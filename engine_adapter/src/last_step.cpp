@@ -23,7 +23,7 @@ void Responder::Implementation::checkLastStep(std::span<Vehicle* const> some) {
         known ? clock->read()
               : WorldSteps{.total = memory.delivery.step, .first = memory.delivery.step};
     switch (lookBack(memory.delivery, vehicle.bodies, steps)) {
-      case LastStep::as_told:
+      case LastStep::as_expected:
         break;
       case LastStep::not_taken:
         takeBack(vehicle.bodies, options.delivery, memory.delivery);

@@ -27,7 +27,7 @@ PlanarForce over(const PlanarImpulse& impulse, double h) {
 
 LastStep lookBack(const LastDelivery& delivery, const VehicleBodies& bodies,
                   const WorldSteps& steps) {
-  if (!delivery.any) return LastStep::as_told;
+  if (!delivery.any) return LastStep::as_expected;
   const Eigen::Vector3d position = toVector(dBodyGetPosition(bodies.chassis()));
   const Eigen::Vector3d velocity = toVector(dBodyGetLinearVel(bodies.chassis()));
   if (!(steps.total > 0.0)) {
@@ -47,7 +47,8 @@ LastStep lookBack(const LastDelivery& delivery, const VehicleBodies& bodies,
     }
     if ((way - steps.total * velocity).norm() > tolerance) return LastStep::moved_since;
   }
-  return wasOne && isClose(steps.total, delivery.step) ? LastStep::as_told : LastStep::other_size;
+  return wasOne && isClose(steps.total, delivery.step) ? LastStep::as_expected
+                                                       : LastStep::other_size;
 }
 
 void deliver(const VehicleBodies& bodies, const VehicleState& state, const PlanarImpulse& impulse,

@@ -9,7 +9,7 @@ namespace bumper {
 
 /// What the world's last step did with the impulse delivered before it.
 enum class LastStep {
-  as_told,      ///< or nothing was delivered
+  as_expected,  ///< or nothing was delivered
   not_taken,    ///< step() was called again
   other_size,   ///< it had another size than step(h), or there were several
   moved_since,  ///< the vehicle's motion is not that of these steps

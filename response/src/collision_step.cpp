@@ -3,6 +3,7 @@
 #include "bumper/response/collision_step.h"
 
 #include <cmath>
+#include <cstddef>
 
 #include "encounter/encounter.h"
 #include "paper_step.h"
@@ -23,6 +24,27 @@ StepOutcome CollisionStep::resolve(const VehicleParameters& vehicle, const Plana
   const Outline outline(vehicle);
   return asPaper_ ? paper_->resolve(body, outline, walls, h)
                   : encounter_->resolve(body, outline, walls, h);
+}
+
+StepOutcome CollisionStep::resolve(const VehicleParameters& vehicle, const PlanarMotion& motion,
+                                   std::span<const WallSegment> walls, double h) {
+  segments_.clear();
+  surfaces_.clear();
+  groups_.clear();
+  for (const WallSegment& wall : walls) {
+    std::size_t surface = 0;
+    while (surface < surfaces_.size() &&
+           (surfaces_[surface].settings != wall.settings || groups_[surface] != wall.group)) {
+      ++surface;
+    }
+    if (surface == surfaces_.size()) {
+      surfaces_.push_back({.settings = wall.settings});
+      groups_.push_back(wall.group);
+    }
+    segments_.push_back(wall);
+    segments_.back().surface = static_cast<int>(surface);
+  }
+  return resolve(vehicle, motion, {segments_, surfaces_}, h);
 }
 
 std::span<const SpeculativeContact> CollisionStep::speculativeContacts(const PlanarMotion& motion,

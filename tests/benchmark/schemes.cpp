@@ -152,7 +152,7 @@ class JointScheme : public OdeScheme {
 };
 
 /// The best that the force pulse can do: the reference's impulses at the reference's times.
-class ToldScheme : public OdeScheme {
+class GivenScheme : public OdeScheme {
  public:
   using OdeScheme::OdeScheme;
 
@@ -200,7 +200,7 @@ std::unique_ptr<Scheme> makeScheme(const std::string& name, Setting setting, int
   if (name == "ode_worldstep") {
     return std::make_unique<JointScheme>(setting, triangles, Stepper::exact, false);
   }
-  if (name == "reference_impulses") return std::make_unique<ToldScheme>(setting);
+  if (name == "reference_impulses") return std::make_unique<GivenScheme>(setting);
 #ifdef BUMPER_BULLET
   if (name == "bullet") return makeBulletScheme(triangles);
 #endif

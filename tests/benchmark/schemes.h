@@ -42,7 +42,7 @@ class Scheme {
 ///   ode_contacts                     the library's law at the mean of dCollide's contacts
 ///   ode_quickstep, ode_worldstep     ODE's contact joints as dCollide gives them
 ///   ode_quickstep_true_normal        with every contact's normal replaced by the wall's
-///   reference_impulses               ODE told the reference's impulses and times: tyres only
+///   reference_impulses               ODE given the reference's impulses and times: tyres only
 ///   bullet                           if it was found
 /// Throws Error for another name.
 std::unique_ptr<Scheme> makeScheme(const std::string& name, Setting setting, int triangles);

@@ -509,6 +509,47 @@ TEST(CollisionStep, WallsOfDifferentSettingsAnswerForThemselves) {
               1e-12);
 }
 
+TEST(CollisionStep, WallsMayBringTheirSettings) {
+  Random random(211);
+  ResponseSettings hard = paperSettings;
+  hard.restitution = AngleCurve::constant(0.2);
+  ResponseSettings breaking;
+  breaking.law = Law::energy;
+  breaking.energyRoot = EnergyRoot::break_through;
+  const std::array surfaces{Surface{.settings = &paperSettings}, Surface{.settings = &hard},
+                            Surface{.settings = &breaking}, Surface{.settings = &breaking}};
+  CollisionStep step;
+  int hit = 0;
+  for (int i = 0; i < 2'000; ++i) {
+    PlanarMotion motion;
+    motion.yaw = random.uniform(-3.0, 3.0);
+    motion.velocity = rotated({random.uniform(0.0, 40.0), 0.0}, random.uniform(-3.0, 3.0));
+    motion.yawRate = random.uniform(-3.0, 3.0);
+    std::vector<Segment> segments;
+    std::vector<WallSegment> walls;
+    for (int k = 0; k < 4; ++k) {
+      const Vector2 normal = rotated({1.0, 0.0}, random.uniform(-3.0, 3.0));
+      Segment segment = wallAt(motion, normal, random.uniform(-0.2, 0.1), k);
+      segment.surface = random.below(4);
+      segments.push_back(segment);
+      WallSegment wall{segment};
+      wall.surface = 99;
+      wall.settings = surfaces[static_cast<std::size_t>(segment.surface)].settings;
+      wall.group = segment.surface == 3 ? 1 : 0;
+      walls.push_back(wall);
+    }
+    const StepOutcome expected = step.resolve(car, motion, {segments, surfaces}, 0.01);
+    const PlanarMotion after = expected.after;
+    const std::size_t impacts = expected.impacts.size();
+    const StepOutcome outcome = step.resolve(car, motion, walls, 0.01);
+    ASSERT_EQ(outcome.after.position, after.position) << i;
+    ASSERT_EQ(outcome.after.velocity, after.velocity) << i;
+    ASSERT_EQ(outcome.impacts.size(), impacts) << i;
+    hit += impacts > 0 ? 1 : 0;
+  }
+  EXPECT_GT(hit, 500);
+}
+
 TEST(CollisionStep, TheSameObjectAnswersTheSame) {
   Random random(711);
   CollisionStep used;

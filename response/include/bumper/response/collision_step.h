@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "bumper/response/segment.h"
 #include "bumper/response/speculative_contact.h"
@@ -15,6 +16,12 @@ class PaperStep;
 /// The greatest penetration, m, of a vehicle that approaches a wall at `speed`, m/s, while a force
 /// pulse of `contactTime` seconds reverses it.
 inline double enteredDepth(double speed, double contactTime) { return 0.5 * speed * contactTime; }
+
+/// A segment with settings of its own, for callers without a table of surfaces.
+struct WallSegment : Segment {
+  const ResponseSettings* settings = nullptr;  ///< not owned, never null
+  int group = 0;                               ///< what breaks as one
+};
 
 /// One vehicle, one step: walls nearby in, impacts out. Independent of any engine. Holds only
 /// scratch memory, so one object serves any number of vehicles in turn.
@@ -52,6 +59,9 @@ class CollisionStep {
   /// by their overlap.
   StepOutcome resolve(const VehicleParameters& vehicle, const PlanarMotion& motion,
                       const Walls& walls, double h);
+  /// The same with a surface for each pair of settings and group; Segment::surface does not count.
+  StepOutcome resolve(const VehicleParameters& vehicle, const PlanarMotion& motion,
+                      std::span<const WallSegment> walls, double h);
 
   /// For the step resolved last, whose walls must still exist: the points of the outline that may
   /// meet a wall no further away than `distance` at its end, m, for the engine's own solver.
@@ -71,6 +81,10 @@ class CollisionStep {
   std::unique_ptr<Encounter> encounter_;
   std::unique_ptr<PaperStep> paper_;
   bool asPaper_ = false;  // the step that was resolved last
+  // Of the walls that came with settings of their own.
+  std::vector<Segment> segments_;
+  std::vector<Surface> surfaces_;
+  std::vector<int> groups_;  // of the surfaces
 };
 
 }  // namespace bumper

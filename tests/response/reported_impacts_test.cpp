@@ -199,7 +199,7 @@ int mostAtOnce(const StepOutcome& outcome) {
   return most;
 }
 
-TEST(ToldImpacts, FitTheirArmsAndTheStep) {
+TEST(ReportedImpacts, FitTheirArmsAndTheStep) {
   constexpr int enoughToBeSolvedTogether = 17;
   Random random(1301);
   CollisionStep step;
