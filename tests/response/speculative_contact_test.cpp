@@ -111,7 +111,7 @@ TEST(SpeculativeContact, HoldsWhateverPushes) {
     const PlanarMotion after = outcome.after;
     const auto contacts = collision.speculativeContacts(each.motion, after, 5.0, each.step);
     PlanarMotion motion = carrying(each.motion, after, each.step);
-    const Vector2 normal = normalTowards(wall, {});
+    const Vector2 normal = normalTowards(wall, Vector2::Zero());
     // Into the wall, and turning.
     const double push = random.uniform(0.0, 0.3) / each.step;
     const double turn = random.uniform(-0.1, 0.1) / each.step;
