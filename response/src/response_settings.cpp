@@ -45,6 +45,7 @@ void validate(const ResponseSettings& settings) {
   requireCurve(settings.energyRemaining, 1.0, "energyRemaining");
   requireRange(settings.maxRestitution, 0.0, 1.0, "maxRestitution", "");
   requireRange(settings.penetrationTime, 0.0, unbounded, "penetrationTime", " s");
+  requireRange(settings.smallestFeature, 0.0, unbounded, "smallestFeature", "");
   requireRange(settings.contactTime, 0.0, unbounded, "contactTime", " s");
   requireRange(settings.restSpeed, 0.0, unbounded, "restSpeed", " m/s");
 }

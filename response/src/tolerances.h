@@ -11,6 +11,9 @@ inline constexpr double inLine = 1e-4;
 /// nearly in line.
 inline constexpr double nearlyInLine = 0.087;
 
+/// Walls whose ends are no further apart than this, m, meet.
+inline constexpr double jointWidth = 1e-3;
+
 /// A penetration greater than this within a step, m, is no new touch: it slides.
 inline constexpr double freshDepth = 10.0 * touchTolerance;
 

@@ -4,14 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "../engagement.h"
 #include "../tolerances.h"
 #include "bumper/response/sweep.h"
+#include "engaged_contact.h"
+#include "small_feature.h"
 
 namespace bumper {
 
 namespace {
-
-constexpr double jointWidth = 1e-3;  // m; walls whose ends are no further apart meet
 
 // Whether what is inside the outline of one wall lies behind the face of another.
 bool isBehind(const Overlap& wall, const Overlap& front) {
@@ -131,53 +132,36 @@ double ContactSet::sinceTouch(const Manifold& wall) const {
   return speed > restTolerance ? sinceTouch(wall, speed) : std::numeric_limits<double>::infinity();
 }
 
-Approach ContactSet::middleOfChain(const Manifold& struck, double penetration) const {
-  const Overlap& first = struck.overlap;
+Answer ContactSet::answerTo(const Manifold& struck, const Approach& first) const {
+  const Overlap& touch = struck.overlap;
+  const double penetration = first.speed * settingsOf(struck).penetrationTime;
+  const Outline& outline = vehicle_.outline;
   const auto alone = [&] {
-    return approach(contactPoint(vehicle_.outline, place_, struck.segment, first, penetration),
-                    first.normal);
+    return Answer{.at = approach(contactPoint(outline, place_, struck.segment, touch, penetration),
+                                 touch.normal)};
   };
-  if (struck.segment.isPost() || penetration <= 0.0) return alone();
-  const Vector2 centre = vehicle_.body.motion.position;
-  Placement moved = place_;
-  moved.position += moveTo(first, centre, penetration) * first.normal;
-  Vector2 middle = Vector2::Zero();
-  Vector2 normal = Vector2::Zero();
-  double total = 0.0;
-  const auto facing = [&](const Manifold& wall) -> Vector2 {
-    return &wall == &struck ? first.normal : normalTowards(wall.segment, centre);
-  };
-  const auto include = [&](const Manifold& wall) {
-    const Interference inside = interference(vehicle_.outline, moved, wall.segment);
-    const double bend = std::abs(cross(first.normal, facing(wall)));
-    const double weight = inside.length() * std::max(0.0, 1.0 - bend / nearlyInLine);
-    if (inside.empty || weight == 0.0) return;
-    middle += weight * inside.middle();
-    normal += weight * facing(wall);
-    total += weight;
-  };
-  include(struck);
-  for (const bool forward : {true, false}) {
-    const Manifold* last = &struck;
-    for (std::size_t length = 1; length < manifolds_.size(); ++length) {
-      const Vector2 joint = forward ? last->segment.end : last->segment.start;
-      const auto next =
-          std::find_if(manifolds_.begin(), manifolds_.end(), [&](const Manifold& wall) {
-            return &wall != last && !surfaceOf(wall).entered &&
-                   &settingsOf(wall) == &settingsOf(struck) &&
-                   (joint - (forward ? wall.segment.start : wall.segment.end)).norm() <=
-                       jointWidth &&
-                   first.normal.dot(facing(wall)) > 0.0 &&
-                   std::abs(cross(first.normal, facing(wall))) < nearlyInLine;
-          });
-      if (next == manifolds_.end()) break;
-      include(*next);
-      last = &*next;
-    }
+  const Vector2 aside =
+      stepAside(*this, struck, first.contact.point, first.normal, outline, place_);
+  const bool stepsAside = !aside.isZero(0.0);
+  if (struck.segment.isPost() || (penetration <= 0.0 && !stepsAside)) return alone();
+  // Back to where they touched, and on from there for the penetration time.
+  const double reached = touch.depth - moveTo(touch, place_.position, penetration);
+  Placement pose = place_;
+  pose.position += touch.depth * touch.normal + aside;
+  if (reached > 0.0) {
+    pose.position += reached / first.speed * velocityAt(vehicle_.body.motion, first.contact.arm);
   }
-  if (total == 0.0) return alone();
-  middle /= total;
-  return approach({.point = middle, .arm = middle - moved.position}, normal.normalized());
+  if (!stepsAside && !touch.byEnd && depthInside(outline, pose, struck.segment.start) < 0.0 &&
+      depthInside(outline, pose, struck.segment.end) < 0.0) {
+    return alone();
+  }
+  const EngagedContact engaged = engagedContact(*this, struck, outline, pose, reached);
+  if (!stepsAside && !engaged.exists) return alone();
+  if (!engaged.meets) {
+    return {
+        .at = {.contact = first.contact, .normal = first.normal}, .atEdge = true, .meets = false};
+  }
+  return {.at = approach(engaged.contact, engaged.normal), .atEdge = true};
 }
 
 }  // namespace bumper

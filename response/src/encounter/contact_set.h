@@ -17,6 +17,15 @@ struct Approach {
   double speed = 0.0;
 };
 
+/// What the response to a touched wall acts on.
+struct Answer {
+  Approach at{};
+  /// The wall ends or turns where the outline engages it: this contact, and not the points of first
+  /// touch, says whether they approach.
+  bool atEdge = false;
+  bool meets = true;  ///< atEdge: false if the engaged outline meets nothing, it passes by
+};
+
 /// The contact manifold of a vehicle and one wall nearby, and its state in this step.
 struct Manifold {
   Segment segment;
@@ -27,7 +36,7 @@ struct Manifold {
   bool struck = false;     ///< … and `answered` has had an impulse at this instant
   bool passed = false;     ///< it lets the vehicle through, or is ignored for the rest of this step
   double ignoredUntil = 0.0;  ///< touches before this time were checked, to no effect
-  Approach answered{};
+  Answer answered{};
 };
 
 /// The walls near a vehicle, merged, and how its outline touches them where it is now.
@@ -62,10 +71,10 @@ class ContactSet {
   [[nodiscard]] Approach touching(const Manifold& wall) const;
   /// How long ago the wall was touched at such a speed, s.
   [[nodiscard]] static double sinceTouch(const Manifold& wall, double speed);
-  /// The middle of the line of interference with a wall and the walls that go on from its ends at
-  /// a small angle, each weighted by its length and less for a larger angle. A wall that is not
-  /// quite flat is hit like a flat one.
-  [[nodiscard]] Approach middleOfChain(const Manifold& struck, double penetration) const;
+  /// The contact at the depth that the outline reaches in the penetration time, if `first`
+  /// approaches: of a flat wall the middle of the line of interference; elsewhere see
+  /// engagedContact().
+  [[nodiscard]] Answer answerTo(const Manifold& struck, const Approach& first) const;
 
  private:
   template <typename OverlapOf>

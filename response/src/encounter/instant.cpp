@@ -72,10 +72,11 @@ Instant::Next Instant::firstNewWall() {
     if (first.speed <= restTolerance) continue;
     const double since = ContactSet::sinceTouch(wall, first.speed);
     if (since <= longest) continue;
+    wall.answered = contacts_.answerTo(wall, first);
+    const Approach& at = wall.answered.at;
+    if (wall.answered.atEdge && at.speed <= restTolerance) continue;
     longest = since;
-    wall.answered =
-        contacts_.middleOfChain(wall, first.speed * contacts_.settingsOf(wall).penetrationTime);
-    next = {.wall = &wall, .at = wall.answered.speed > restTolerance ? wall.answered : first};
+    next = {.wall = &wall, .at = at.speed > restTolerance ? at : first};
   }
   return next;
 }
@@ -86,9 +87,15 @@ Instant::Next Instant::fastestStruckWall() {
   next.at.speed = restTolerance;
   for (Manifold& wall : contacts_.all()) {
     if (!wall.struck || wall.passed) continue;
-    for (const Approach& point :
-         {contacts_.touching(wall),
-          contacts_.approach(wall.answered.contact, wall.answered.normal)}) {
+    const Approach first = contacts_.touching(wall);
+    if (wall.answered.atEdge) {
+      if (first.speed <= restTolerance) continue;
+      const Approach again = contacts_.answerTo(wall, first).at;
+      if (again.speed > next.at.speed) next = {.wall = &wall, .at = again};
+      continue;
+    }
+    const Approach& answered = wall.answered.at;
+    for (const Approach& point : {first, contacts_.approach(answered.contact, answered.normal)}) {
       if (point.speed > next.at.speed) next = {.wall = &wall, .at = point};
     }
   }
@@ -117,10 +124,18 @@ void Instant::answerTogether(double time) {
   std::size_t count = 0;
   for (Manifold& wall : contacts_.all()) {
     if (!wall.touched || wall.hidden || wall.passed) continue;
+    const auto add = [&](const Approach& at) {
+      if (count == points.size()) return;
+      points[count] = {.normal = at.normal, .arm = at.contact.arm};
+      owners[count++] = {.wall = &wall, .at = at};
+    };
+    const Answer answer = contacts_.answerTo(wall, contacts_.touching(wall));
+    if (answer.atEdge) {
+      if (answer.meets) add(answer.at);
+      continue;
+    }
     for (const ContactPoint& contact : wall.points.all()) {
-      if (count == points.size()) break;
-      points[count] = {.normal = wall.overlap.normal, .arm = contact.arm};
-      owners[count++] = {.wall = &wall, .at = contacts_.approach(contact, wall.overlap.normal)};
+      add(contacts_.approach(contact, wall.overlap.normal));
     }
   }
   const PlanarBody before = vehicle_.body;

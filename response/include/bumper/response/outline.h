@@ -55,6 +55,13 @@ struct Outline {
         rear(vehicle.massCentreToRear),
         halfWidth(0.5 * vehicle.width) {}
 
+  [[nodiscard]] Outline grown(double by) const {
+    Outline result = *this;
+    result.front += by;
+    result.rear += by;
+    result.halfWidth += by;
+    return result;
+  }
   /// Enlarged on every side, m.
   [[nodiscard]] PlanRectangle enlarged(double by) const {
     return {.middle = {0.5 * (front - rear), 0.0},

@@ -37,6 +37,10 @@ struct ResponseSettings {
   /// The contact point is found at the depth that the approach speed reaches in this time, s, ≥ 0.
   /// Method::bumper only; response/README.md says how the default was chosen.
   double penetrationTime = 0.0025;
+  /// What stands out of a wall, or gapes in it, by less than this does not catch a vehicle that
+  /// slides along: a share of the outline's length, ≥ 0; 0.0045 are 2 cm for a car. The outline may
+  /// lie as deep as that in such a feature, and is eased out. Method::bumper only.
+  double smallestFeature = 0.0045;
   /// Length of the force pulse, s, ≥ 0, which starts at the impact; 0: one step. With a longer one
   /// the wall causes no further impact while its pulse runs, and the vehicle penetrates it by about
   /// v_n · contactTime / (2 (1 + e)).

@@ -1,0 +1,73 @@
+#include "small_feature.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "../tolerances.h"
+
+namespace bumper {
+
+namespace {
+
+// Cosines of the angle between a wall that the outline slides on and what it meets: from one to the
+// other that turns from an obstacle into the same wall.
+constexpr double flattest = 0.8;
+constexpr double steepest = 0.95;
+
+// Of the outline along a direction, from the origin of the plane, m.
+double lowest(const Outline& outline, const Placement& at, const Vector2& up) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vector2& corner : outline.corners())
+    least = std::min(least, up.dot(at.turned(corner)));
+  return up.dot(at.position) + least;
+}
+
+// Whether a wall goes on from here towards the side that `up` points to.
+bool risesFrom(const ContactSet& contacts, const Manifold& struck, const Vector2& place,
+               const Vector2& up) {
+  return std::any_of(contacts.all().begin(), contacts.all().end(), [&](const Manifold& wall) {
+    if (&wall == &struck || wall.passed || wall.segment.isPost()) return false;
+    const auto rises = [&](const Vector2& from, const Vector2& to) {
+      return (from - place).squaredNorm() <= jointWidth * jointWidth &&
+             up.dot(to - from) > nearlyInLine * (to - from).norm();
+    };
+    return rises(wall.segment.start, wall.segment.end) ||
+           rises(wall.segment.end, wall.segment.start);
+  });
+}
+
+}  // namespace
+
+Vector2 stepAside(const ContactSet& contacts, const Manifold& struck, const Vector2& touched,
+                  const Vector2& normal, const Outline& outline, const Placement& at) {
+  Vector2 aside = Vector2::Zero();
+  const double size = contacts.settingsOf(struck).smallestFeature * (outline.front + outline.rear);
+  if (!(size > 0.0)) return aside;
+  const Outline near = outline.grown(2.0 * size);
+  const Segment& wall = struck.segment;
+  const bool atStart = (wall.start - touched).squaredNorm() <= jointWidth * jointWidth;
+  const bool atEnd = (wall.end - touched).squaredNorm() <= jointWidth * jointWidth;
+  double most = 0.0;
+  for (const Manifold& other : contacts.all()) {
+    if (&other == &struck || other.passed || other.segment.isPost()) continue;
+    const std::optional<Overlap> ground = findTouch(near, at, other.segment);
+    if (!ground) continue;
+    const Vector2& up = ground->normal;
+    const double across = std::clamp((steepest - up.dot(normal)) / (steepest - flattest), 0.0, 1.0);
+    if (across == 0.0) continue;
+    Vector2 top = up.dot(wall.end - wall.start) > 0.0 ? wall.end : wall.start;
+    if (struck.overlap.byEnd && (atStart || atEnd)) top = atStart ? wall.start : wall.end;
+    const double exposed = up.dot(top) - ground->offset;
+    const double run = std::abs(cross(up, top - touched));
+    const double covered = up.dot(top) - lowest(outline, at, up);
+    const double way = across * std::min({covered, size, 2.0 * size - exposed - run});
+    if (way <= most || risesFrom(contacts, struck, top, up)) continue;
+    most = way;
+    aside = way * up;
+  }
+  return aside;
+}
+
+}  // namespace bumper

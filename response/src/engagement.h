@@ -1,0 +1,31 @@
+#pragma once
+
+#include <algorithm>
+
+#include "bumper/response/touch.h"
+
+namespace bumper {
+
+/// How a wall's part inside the outline pushes it out: with d the distance to the nearest side,
+/// −∇ of ½ ∫ d² ds over that part, as the outline is moved. Where a wall passes through the
+/// outline that is exactly along its normal; at ends, vertices and steps it turns from one
+/// direction to the other as the outline engages, without a jump.
+struct Engagement {
+  Vector2 push = Vector2::Zero();    ///< towards free space, in the plane's frame, m²
+  Vector2 moment = Vector2::Zero();  ///< ∫ place ds, m²
+  double length = 0.0;               ///< of the part inside, m
+  double depth = 0.0;                ///< the largest d, m
+
+  void add(const Engagement& other, double weight) {
+    push += weight * other.push;
+    moment += weight * other.moment;
+    length += weight * other.length;
+    depth = std::max(depth, other.depth);
+  }
+};
+Engagement engagement(const Outline& outline, const Placement& at, const Segment& wall);
+
+/// Of a point inside the outline to the nearest side, m; negative: outside.
+double depthInside(const Outline& outline, const Placement& at, const Vector2& point);
+
+}  // namespace bumper
