@@ -140,28 +140,37 @@ Answer ContactSet::answerTo(const Manifold& struck, const Approach& first) const
     return Answer{.at = approach(contactPoint(outline, place_, struck.segment, touch, penetration),
                                  touch.normal)};
   };
-  const Vector2 aside =
-      stepAside(*this, struck, first.contact.point, first.normal, outline, place_);
-  const bool stepsAside = !aside.isZero(0.0);
-  if (struck.segment.isPost() || (penetration <= 0.0 && !stepsAside)) return alone();
+  const Yielding yielding =
+      yieldingOf(*this, struck, first.contact.point, first.normal, outline, place_);
+  const bool yields = yielding.share > 0.0;
+  if (struck.segment.isPost() || (penetration <= 0.0 && !yields)) return alone();
   // Back to where they touched, and on from there for the penetration time.
   const double reached = touch.depth - moveTo(touch, place_.position, penetration);
   Placement pose = place_;
-  pose.position += touch.depth * touch.normal + aside;
+  pose.position += touch.depth * touch.normal + yielding.aside;
   if (reached > 0.0) {
     pose.position += reached / first.speed * velocityAt(vehicle_.body.motion, first.contact.arm);
   }
-  if (!stepsAside && !touch.byEnd && depthInside(outline, pose, struck.segment.start) < 0.0 &&
-      depthInside(outline, pose, struck.segment.end) < 0.0) {
-    return alone();
-  }
-  const EngagedContact engaged = engagedContact(*this, struck, outline, pose, reached);
-  if (!stepsAside && !engaged.exists) return alone();
-  if (!engaged.meets) {
+  const EngagedContact engaged =
+      engagedContact(*this, struck, {outline, pose, reached}, yielding.share);
+  if (yields && !engaged.meets) {
     return {
-        .at = {.contact = first.contact, .normal = first.normal}, .atEdge = true, .meets = false};
+        .at = {.contact = first.contact, .normal = first.normal}, .yields = true, .meets = false};
   }
-  return {.at = approach(engaged.contact, engaged.normal), .atEdge = true};
+  if (!engaged.meets || engaged.share == 0.0) return alone();
+  // Walls that go on and turn to the side go over into one wall that ends; at a vertex that is
+  // touched none of them is that one.
+  const Answer end = alone();
+  const auto between = [&](const Vector2& one, const Vector2& other) -> Vector2 {
+    return one + engaged.share * (other - one);
+  };
+  ContactPoint contact = engaged.contact;
+  if (!touch.byEnd) {
+    contact = {.point = between(end.at.contact.point, contact.point),
+               .arm = between(end.at.contact.arm, contact.arm)};
+  }
+  const Vector2 normal = between(end.at.normal, engaged.normal).normalized();
+  return {.at = approach(contact, normal), .yields = yields};
 }
 
 }  // namespace bumper

@@ -20,10 +20,9 @@ struct Approach {
 /// What the response to a touched wall acts on.
 struct Answer {
   Approach at{};
-  /// The wall ends or turns where the outline engages it: this contact, and not the points of first
-  /// touch, says whether they approach.
-  bool atEdge = false;
-  bool meets = true;  ///< atEdge: false if the engaged outline meets nothing, it passes by
+  /// The wall yields: this contact, and not the points of first touch, says whether they approach.
+  bool yields = false;
+  bool meets = true;  ///< it yields, and nothing is in the way: they pass by each other
 };
 
 /// The contact manifold of a vehicle and one wall nearby, and its state in this step.

@@ -12,6 +12,10 @@ namespace bumper {
 
 namespace {
 
+// From this weight of a wall that goes on on, a contact is that of the chain and no longer in part
+// that of the touched wall alone.
+constexpr double wholeWeight = 0.25;
+
 constexpr std::size_t longestChain = 64;
 constexpr double sameVertex = 2e-6;  // m
 
@@ -27,13 +31,13 @@ struct Way {
 
 class Chain {
  public:
-  Chain(const ContactSet& contacts, const Outline& outline, const Placement& pose, double reached)
-      : contacts_(contacts), outline_(outline), pose_(pose), reached_(reached) {}
+  Chain(const ContactSet& contacts, const Engaged& engaged, double yielding)
+      : contacts_(contacts), engaged_(engaged), yielding_(yielding) {}
 
   void include(const Manifold& wall, double weight) {
     if (count_ == walls_.size()) return;
     walls_[count_++] = &wall;
-    sum_.add(engagement(outline_, pose_, wall.segment), weight);
+    sum_.add(engagement(engaged_.outline, engaged_.pose, wall.segment), weight);
   }
 
   void follow(Way way) {
@@ -45,19 +49,19 @@ class Chain {
       if (next.turn > 0.5 * std::numbers::pi || inwards >= nearlyInLine) return;
       weight *= 1.0 - inwards / nearlyInLine;
       way.turned -= next.turn;
-      const double depth = depthInside(outline_, pose_, way.place);
+      const double depth = depthInside(engaged_.outline, engaged_.pose, way.place);
       if (way.last != nullptr && depth <= 0.0 && std::abs(way.turned) > nearlyInLine) return;
-      // A wall that turns back could be met as a whole once its end is.
-      const bool turnsBack = way.turned > 0.5 * std::numbers::pi;
-      include(*next.wall,
-              turnsBack ? weight * std::clamp(2.0 * depth / reached_, 0.0, 1.0) : weight);
+      const double facing = std::max(std::cos(way.turned), yielding_);
+      if (facing <= 0.0 || way.turned > std::numbers::pi) return;
+      include(*next.wall, weight * facing);
+      share_ = std::max(share_, std::min(weight * facing / wholeWeight, 1.0));
       way.last = next.wall;
       way.place = next.end;
       way.along = next.along;
     }
   }
 
-  [[nodiscard]] std::size_t length() const { return count_; }
+  [[nodiscard]] double share() const { return share_; }
   [[nodiscard]] const Engagement& sum() const { return sum_; }
 
  private:
@@ -108,23 +112,23 @@ class Chain {
   }
 
   const ContactSet& contacts_;
-  const Outline& outline_;
-  const Placement& pose_;
-  double reached_;
+  const Engaged& engaged_;
+  double yielding_;
   std::array<const Manifold*, longestChain> walls_{};
   std::size_t count_ = 0;
   Engagement sum_;
+  double share_ = 0.0;  // the largest weight of a wall that goes on
 };
 
 }  // namespace
 
 EngagedContact engagedContact(const ContactSet& contacts, const Manifold& struck,
-                              const Outline& outline, const Placement& pose, double reached) {
+                              const Engaged& engaged, double yielding) {
   const Overlap& touch = struck.overlap;
   const Segment& wall = struck.segment;
   const Vector2 tangent = turnedLeft(touch.normal);
   const Vector2 touched = touch.deepest * tangent + touch.offset * touch.normal;
-  Chain chain(contacts, outline, pose, reached);
+  Chain chain(contacts, engaged, yielding);
   const bool atStart = (wall.start - touched).norm() <= jointWidth;
   const bool atEnd = (wall.end - touched).norm() <= jointWidth;
   if (touch.byEnd && (atStart || atEnd)) {
@@ -140,13 +144,13 @@ EngagedContact engagedContact(const ContactSet& contacts, const Manifold& struck
     chain.follow(
         {.place = wall.start, .along = -along, .side = forward ? 1.0 : -1.0, .last = &struck});
   }
-  EngagedContact result{.exists = chain.length() > 1};
+  EngagedContact result{.share = std::max(chain.share(), yielding)};
   const Engagement& sum = chain.sum();
   const double push = sum.push.norm();
   if (!(push > 0.0)) return result;
   const Vector2 middle = sum.moment / sum.length;
   result.meets = true;
-  result.contact = {.point = middle, .arm = middle - pose.position};
+  result.contact = {.point = middle, .arm = middle - engaged.pose.position};
   result.normal = sum.push / push;
   return result;
 }

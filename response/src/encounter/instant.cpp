@@ -74,7 +74,7 @@ Instant::Next Instant::firstNewWall() {
     if (since <= longest) continue;
     wall.answered = contacts_.answerTo(wall, first);
     const Approach& at = wall.answered.at;
-    if (wall.answered.atEdge && at.speed <= restTolerance) continue;
+    if (wall.answered.yields && at.speed <= restTolerance) continue;
     longest = since;
     next = {.wall = &wall, .at = at.speed > restTolerance ? at : first};
   }
@@ -88,7 +88,7 @@ Instant::Next Instant::fastestStruckWall() {
   for (Manifold& wall : contacts_.all()) {
     if (!wall.struck || wall.passed) continue;
     const Approach first = contacts_.touching(wall);
-    if (wall.answered.atEdge) {
+    if (wall.answered.yields) {
       if (first.speed <= restTolerance) continue;
       const Approach again = contacts_.answerTo(wall, first).at;
       if (again.speed > next.at.speed) next = {.wall = &wall, .at = again};
@@ -130,7 +130,7 @@ void Instant::answerTogether(double time) {
       owners[count++] = {.wall = &wall, .at = at};
     };
     const Answer answer = contacts_.answerTo(wall, contacts_.touching(wall));
-    if (answer.atEdge) {
+    if (answer.yields) {
       if (answer.meets) add(answer.at);
       continue;
     }

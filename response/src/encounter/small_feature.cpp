@@ -40,16 +40,15 @@ bool risesFrom(const ContactSet& contacts, const Manifold& struck, const Vector2
 
 }  // namespace
 
-Vector2 stepAside(const ContactSet& contacts, const Manifold& struck, const Vector2& touched,
-                  const Vector2& normal, const Outline& outline, const Placement& at) {
-  Vector2 aside = Vector2::Zero();
+Yielding yieldingOf(const ContactSet& contacts, const Manifold& struck, const Vector2& touched,
+                    const Vector2& normal, const Outline& outline, const Placement& at) {
+  Yielding result;
   const double size = contacts.settingsOf(struck).smallestFeature * (outline.front + outline.rear);
-  if (!(size > 0.0)) return aside;
-  const Outline near = outline.grown(2.0 * size);
   const Segment& wall = struck.segment;
+  if (!(size > 0.0) || wall.isPost()) return result;
+  const Outline near = outline.grown(2.0 * size);
   const bool atStart = (wall.start - touched).squaredNorm() <= jointWidth * jointWidth;
   const bool atEnd = (wall.end - touched).squaredNorm() <= jointWidth * jointWidth;
-  double most = 0.0;
   for (const Manifold& other : contacts.all()) {
     if (&other == &struck || other.passed || other.segment.isPost()) continue;
     const std::optional<Overlap> ground = findTouch(near, at, other.segment);
@@ -59,15 +58,20 @@ Vector2 stepAside(const ContactSet& contacts, const Manifold& struck, const Vect
     if (across == 0.0) continue;
     Vector2 top = up.dot(wall.end - wall.start) > 0.0 ? wall.end : wall.start;
     if (struck.overlap.byEnd && (atStart || atEnd)) top = atStart ? wall.start : wall.end;
+    const double covered = up.dot(top) - lowest(outline, at, up);
+    if (covered <= 0.0) continue;
+    // Only what lies on the vehicle's side of the feature, and that the outline is not in itself.
+    const Segment& before = other.segment;
+    const double ahead = std::max(normal.dot(before.start - top), normal.dot(before.end - top));
     const double exposed = up.dot(top) - ground->offset;
     const double run = std::abs(cross(up, top - touched));
-    const double covered = up.dot(top) - lowest(outline, at, up);
-    const double way = across * std::min({covered, size, 2.0 * size - exposed - run});
-    if (way <= most || risesFrom(contacts, struck, top, up)) continue;
-    most = way;
-    aside = way * up;
+    const double worst = std::max(exposed, covered - exposed) + run;
+    const double share =
+        across * std::clamp(ahead / size, 0.0, 1.0) * std::clamp(2.0 - worst / size, 0.0, 1.0);
+    if (share <= result.share || risesFrom(contacts, struck, top, up)) continue;
+    result = {.aside = std::min(covered, share * size) * up, .share = share};
   }
-  return aside;
+  return result;
 }
 
 }  // namespace bumper

@@ -4,11 +4,17 @@
 
 namespace bumper {
 
-/// By how much the outline is to step aside, m, so that a wall touched at `touched`, along
-/// `normal`, does not catch it: zero unless no more than a smallest feature of that wall is exposed
-/// in front of another one that the outline slides on. Less again for up to twice that size, so
-/// that the response grows without a jump.
-Vector2 stepAside(const ContactSet& contacts, const Manifold& struck, const Vector2& touched,
-                  const Vector2& normal, const Outline& outline, const Placement& at);
+/// How a touched wall yields to an outline that slides along another one.
+struct Yielding {
+  Vector2 aside =
+      Vector2::Zero();  ///< by how much the outline is to step aside before it is engaged, m
+  double share = 0.0;   ///< 0: not at all; 1: the wall does not catch
+};
+
+/// A wall touched at `touched`, along `normal`, yields if no more than a smallest feature of it is
+/// exposed in front of another one that the outline slides on; less again for up to twice that
+/// size, so that the response grows without a jump.
+Yielding yieldingOf(const ContactSet& contacts, const Manifold& struck, const Vector2& touched,
+                    const Vector2& normal, const Outline& outline, const Placement& at);
 
 }  // namespace bumper
