@@ -36,11 +36,23 @@ TEST_F(AllTracks, Load) {
     Scene scene;
     ASSERT_NO_THROW(scene = loadScene(file, {.up = UpAxis::y}, &report));
     EXPECT_EQ(report.triangles, scene.triangles.size());
+    EXPECT_TRUE(report.warnings.empty());
     const WallReport walls = selectWalls(scene).report;
     EXPECT_EQ(walls.walls + walls.dropped(), scene.triangles.size());
     // Race tracks have walls, and more road and land than walls within reach.
     EXPECT_GT(walls.walls, 1000U);
     EXPECT_GT(walls.droppedFlat, 1000U);
+  }
+}
+
+TEST_F(AllTracks, ReadLyingOnTheirSideAreWarnedAbout) {
+  for (const std::filesystem::path& file : files) {
+    SCOPED_TRACE(file);
+    LoadReport report;
+    for (const UpAxis wrong : {UpAxis::x, UpAxis::z}) {
+      loadScene(file, {.up = wrong}, &report);
+      EXPECT_EQ(report.warnings.size(), 1U);
+    }
   }
 }
 

@@ -10,6 +10,7 @@
 #include "bumper/scenes/paper_scenes.h"
 #include "bumper/scenes/scene_files.h"
 #include "bumper/scenes/walls.h"
+#include "fbx_file.h"
 #include "scene_measures.h"
 #include "temporary_files.h"
 
@@ -67,41 +68,21 @@ TEST_F(FileConventions, GivenAxisWinsOverTheFiles) {
   EXPECT_EQ(selectWalls(loadScene(path("wall.glb"), {.up = UpAxis::z})).report.walls, 0U);
 }
 
-std::string fbx(int upAxis, int sign, double unit) {
-  const auto property = [](const std::string& name, const std::string& type, const std::string& v) {
-    return "    P: \"" + name + "\", \"" + type + "\", \"\", \"\"," + v + "\n";
-  };
-  return "; FBX 7.4.0 project file\n"
-         "FBXHeaderExtension:  {\n  FBXHeaderVersion: 1003\n  FBXVersion: 7400\n}\n"
-         "GlobalSettings:  {\n  Version: 1000\n  Properties70:  {\n" +
-         property("UpAxis", "int", std::to_string(upAxis)) +
-         property("UpAxisSign", "int", std::to_string(sign)) +
-         property("UnitScaleFactor", "double", std::to_string(unit)) +
-         "  }\n}\n"
-         "Objects:  {\n"
-         "  Geometry: 11, \"Geometry::fence\", \"Mesh\" {\n"
-         "    Vertices: *9 {\n      a: 0,0,0,300,0,0,0,0,100\n    }\n"
-         "    PolygonVertexIndex: *3 {\n      a: 0,1,-3\n    }\n"
-         "    GeometryVersion: 124\n  }\n"
-         "  Model: 12, \"Model::fence\", \"Mesh\" {\n    Version: 232\n  }\n}\n"
-         "Connections:  {\n  C: \"OO\",12,0\n  C: \"OO\",11,12\n}\n";
-}
-
 TEST_F(FileConventions, FbxStatesAxisAndUnit) {
   LoadReport report;
-  const Scene centimetres = loadScene(write("z.fbx", fbx(2, 1, 1.0)), {}, &report);
+  const Scene centimetres = loadScene(write("z.fbx", fbxFile({.up = 2})), {}, &report);
   EXPECT_EQ(report.up, UpAxis::z);
   EXPECT_EQ(report.metresPerUnit, 0.01);
   EXPECT_LT((boxOf(centimetres).max() - Vector3d(3, 0, 1)).norm(), rounding);
   EXPECT_EQ(centimetres.meshes.at(0).name, "fence");
 
-  const Scene metres = loadScene(write("y.fbx", fbx(1, 1, 100.0)), {.scale = 2.0}, &report);
+  const Scene metres = loadScene(write("y.fbx", fbxFile({.unit = 100.0})), {.scale = 2.0}, &report);
   EXPECT_EQ(report.up, UpAxis::y);
   EXPECT_EQ(report.metresPerUnit, 2.0);
   EXPECT_LT((boxOf(metres).min() - Vector3d(0, -200, 0)).norm(), rounding);
   EXPECT_LT((boxOf(metres).max() - Vector3d(600, 0, 0)).norm(), rounding);
 
-  EXPECT_THAT([&] { loadScene(write("down.fbx", fbx(1, -1, 1.0))); },
+  EXPECT_THAT([&] { loadScene(write("down.fbx", fbxFile({.upSign = -1}))); },
               ThrowsMessage<Error>(AllOf(HasSubstr("down.fbx"), HasSubstr("pointing down"))));
 }
 

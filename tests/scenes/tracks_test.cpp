@@ -44,6 +44,7 @@ TEST_P(TrackCounts, AreThoseCountedByOtherMeans) {
   EXPECT_EQ(report.triangles + report.droppedDegenerate + report.droppedDuplicate,
             GetParam().triangles);
   EXPECT_EQ(report.droppedDegenerate + report.droppedDuplicate, GetParam().dropped);
+  EXPECT_TRUE(report.warnings.empty());
   EXPECT_EQ(scene.meshes.size(), GetParam().meshes);
   EXPECT_EQ(selectWalls(scene, {.dropRepeated = false, .groundReach = std::nullopt}).report.walls,
             GetParam().walls);

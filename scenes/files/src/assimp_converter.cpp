@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "file_conventions.h"
 #include "triangulate.h"
 
 namespace bumper {
@@ -35,8 +36,9 @@ class Converter {
       Transform transform;
     };
     std::vector<Visit> open;
-    if (source_.mRootNode != nullptr) {
-      open.push_back({source_.mRootNode, toDouble(source_.mRootNode->mTransformation)});
+    if (const aiNode* root = source_.mRootNode; root != nullptr) {
+      open.push_back({root, rootIsImporters(result_.format) ? Transform(Transform::Identity())
+                                                            : toDouble(root->mTransformation)});
     }
     while (!open.empty()) {
       const auto [node, transform] = open.back();

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <assimp/ProgressHandler.hpp>
-#include <cctype>
 #include <map>
 #include <memory>
 #include <new>
@@ -15,17 +14,12 @@
 
 #include "assimp_converter.h"
 #include "file_conventions.h"
+#include "file_ending.h"
+#include "textureless_files.h"
 
 namespace bumper {
 
 namespace {
-
-std::string lowerCaseEnding(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 /// assimp's name of the importer that may read the file in this process.
 std::string safeImporter(const std::filesystem::path& file) {
@@ -89,6 +83,7 @@ FileScene readWithAssimp(const std::filesystem::path& file, Formats formats,
   Assimp::Importer importer;
   progress(LoadStage::reading, 0.0);
   importer.SetProgressHandler(std::make_unique<ReadingProgress>(progress).release());  // it owns
+  importer.SetIOHandler(std::make_unique<TexturelessFiles>().release());               // likewise
   if (formats == Formats::safe) keepOnly(importer, safeImporter(file));
   const aiScene* source = nullptr;
   std::string reason;

@@ -10,6 +10,8 @@ namespace bumper {
 
 namespace {
 
+bool isFbx(const std::string& format) { return format.find("FBX") != std::string::npos; }
+
 /// FBX keeps its axes and unit beside the geometry, and assimp leaves them there.
 void readFbxConventions(const std::filesystem::path& file, const aiMetadata& metadata,
                         FileScene& result) {
@@ -40,9 +42,12 @@ void readConventions(const std::filesystem::path& file, const aiScene& source, F
   // By their standards; assimp turns Collada's axes and unit into these.
   if (result.format.starts_with("glTF") || result.format.starts_with("Collada")) {
     result.up = UpAxis::y;
-  } else if (result.format.find("FBX") != std::string::npos && source.mMetaData != nullptr) {
+  } else if (isFbx(result.format) && source.mMetaData != nullptr) {
     readFbxConventions(file, *source.mMetaData, result);
   }
 }
+
+// A file's own nodes are all below: assimp makes the root.
+bool rootIsImporters(const std::string& format) { return isFbx(format); }
 
 }  // namespace bumper

@@ -10,7 +10,9 @@
 #include "bumper/scenes/walls.h"
 #include "corners.h"
 #include "file_scene.h"
+#include "gltf_compression.h"
 #include "read_isolated.h"
+#include "up_axis.h"
 #include "weld.h"
 
 namespace bumper {
@@ -32,18 +34,6 @@ void validate(const LoadOptions& options) {
     throw Error("LoadOptions::memoryLimit is " + std::to_string(options.memoryLimit) +
                 " bytes: at least " + std::to_string(leastMemory) + " are needed");
   }
-}
-
-Eigen::Vector3d turned(const Eigen::Vector3d& v, UpAxis up) {
-  switch (up) {
-    case UpAxis::x:
-      return {v.y(), v.z(), v.x()};
-    case UpAxis::y:
-      return {v.x(), -v.z(), v.y()};
-    case UpAxis::z:
-      break;
-  }
-  return v;
 }
 
 void turn(Scene& scene, UpAxis up, double scale) {
@@ -121,6 +111,8 @@ Scene loadScene(const std::filesystem::path& file, const LoadOptions& options, L
                            : readWithAssimp(file, Formats::safe, progress);
   } catch (const std::bad_alloc&) {
     throw fileError(file, "cannot be read: not enough memory");
+  } catch (const Error& error) {
+    throw Error(error.what() + compressionNote(file));
   }
   if (!options.up && !read.up) failWithoutUp(file, read);
 
@@ -144,6 +136,9 @@ Scene loadScene(const std::filesystem::path& file, const LoadOptions& options, L
     bumper::validate(read.scene);
   } catch (const Error& error) {
     throw fileError(file, std::string("at this scale: ") + error.what());
+  }
+  if (const std::string what = upContradiction(read.scene, done.up); !what.empty()) {
+    done.warnings.emplace_back(fileError(file, what).what());
   }
   if (report != nullptr) *report = done;
   return std::move(read.scene);

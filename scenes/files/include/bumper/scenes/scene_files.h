@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "bumper/scenes/scene.h"
 
@@ -59,6 +61,9 @@ struct LoadReport {
   std::size_t droppedEmptyMeshes = 0;     ///< without vertices or faces
   UpAxis up = UpAxis::z;                  ///< the file's, as it was taken
   double metresPerUnit = 1.0;             ///< the file's unit times LoadOptions::scale
+  /// What is doubtful, each naming the file: an up axis, stated by the file or given, that the
+  /// ground and the walls contradict.
+  std::vector<std::string> warnings{};
 };
 
 /// Reads a mesh file. Node transforms are applied, polygons cut into triangles, corners welded,
