@@ -8,13 +8,16 @@
 #include <ode/ode.h>
 
 #include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <numbers>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -25,6 +28,8 @@
 #include "impact_table.h"
 #include "ray_suspension.h"
 #include "results.h"
+#include "scene_loading.h"
+#include "start_place.h"
 #include "tool.h"
 #include "vehicle_mesh_files.h"
 #include "yaw_plane_car.h"
@@ -37,13 +42,14 @@ using namespace bumper::tools;
 
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr double gravity = 9.81;  // m/s²
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Arguments {
   std::filesystem::path scene;
   std::string up;
   double scale = 1.0;
   std::string scenery;        // meshes to drive through
-  std::vector<double> start;  // m, two numbers; empty: the middle of the scene
+  std::vector<double> start;  // m, two or three numbers; empty: near the middle of the scene
   double heading = 0.0;       // deg from x towards y
   double speed = 25.0;        // m/s
   std::vector<std::string> steering{"0:0"};
@@ -129,33 +135,37 @@ struct World {
   Responder* responder = nullptr;
 };
 
-Eigen::Vector3d startOf(const Arguments& arguments, const Scene& scene, dGeomID mesh,
-                        double height) {
-  Eigen::Vector3d low = scene.vertices[0];
-  Eigen::Vector3d high = low;
-  for (const Eigen::Vector3d& v : scene.vertices) {
-    low = low.cwiseMin(v);
-    high = high.cwiseMax(v);
-  }
-  Eigen::Vector3d start = 0.5 * (low + high);
-  if (!arguments.start.empty()) start.head<2>() << arguments.start[0], arguments.start[1];
-  const double ground = groundHeight(mesh, start.x(), start.y(), high.z() + 1.0);
-  if (std::isnan(ground)) {
+Eigen::Vector3d startOf(const Arguments& arguments, const Scene& scene,
+                        const std::vector<bool>& scenery, double massCentreHeight) {
+  const StartPlaces places(scene, scenery);
+  const std::vector<double>& given = arguments.start;
+  const std::optional<Eigen::Vector2d> place =
+      given.empty() ? places.middle() : Eigen::Vector2d(given[0], given[1]);
+  if (!place) throw Error("there is no ground in the scene");
+  const std::optional<double> ground =
+      given.size() == 3 ? places.groundNear(*place, given[2]) : places.lowestGround(*place);
+  if (!ground) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& v : scene.vertices) box.extend(v);
     std::ostringstream message;
-    message << "there is no ground at --start " << start.x() << ',' << start.y()
-            << "; the scene reaches from " << low.x() << ',' << low.y() << " to " << high.x() << ','
-            << high.y() << " m";
+    message << "there is no ground at --start " << place->x() << ',' << place->y()
+            << "; the scene reaches from " << box.min().x() << ',' << box.min().y() << " to "
+            << box.max().x() << ',' << box.max().y() << " m";
     throw Error(message.str());
   }
-  start.z() = ground + height;
-  return start;
+  std::printf("start: %.1f,%.1f,%.1f", place->x(), place->y(), *ground);
+  const double top = places.groundNear(*place, infinity).value_or(*ground);
+  if (top > *ground) std::printf("; there is more ground above it, up to %.1f m", top);
+  std::putchar('\n');
+  return {place->x(), place->y(), *ground + massCentreHeight};
 }
 
 Recording run(const Arguments& arguments, const Scene& scene) {
-  World world(scene, matchingMeshes(scene, arguments.scenery));
+  const std::vector<bool> scenery = matchingMeshes(scene, arguments.scenery);
+  World world(scene, scenery);
   const YawPlaneCarDesign design;
   YawPlaneCar car(world.world, world.space, design,
-                  startOf(arguments, scene, world.mesh, design.body.massCentreHeight),
+                  startOf(arguments, scene, scenery, design.body.massCentreHeight),
                   arguments.heading * degree, arguments.speed);
   // After what it refers to, so that it is gone before.
   Responder responder(
@@ -229,15 +239,11 @@ class LoadProgress {
 
 Scene load(const Arguments& arguments) {
   LoadProgress line;
-  LoadOptions options{.scale = arguments.scale, .isolate = true, .progress = std::ref(line)};
-  if (arguments.up == "y") options.up = UpAxis::y;
-  if (arguments.up == "z") options.up = UpAxis::z;
-  try {
-    return loadScene(arguments.scene, options);
-  } catch (const Error& error) {
-    if (options.up || std::string(error.what()).find("LoadOptions::up") == std::string::npos) throw;
-    throw Error(std::string(error.what()) + "; here: --up y or --up z");
-  }
+  return loadScene(arguments.scene, "--up",
+                   {.up = upAxis(arguments.up),
+                    .scale = arguments.scale,
+                    .isolate = true,
+                    .progress = std::ref(line)});
 }
 
 // So that the recording finds its scene again when both are moved together.
@@ -269,17 +275,20 @@ int runDrive(int argc, char** argv) {
                "bumper-drive");
   app.add_option("scene", arguments.scene, "mesh file, any format that assimp reads")->required();
   app.add_option("--up", arguments.up, "the file's up axis, for formats that state none")
-      ->check(CLI::IsMember({"y", "z"}));
+      ->check(CLI::IsMember({"x", "y", "z"}));
   app.add_option("--scale", arguments.scale, "metres per unit of the file")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--scenery", arguments.scenery,
                  "meshes to drive through, by name or material, as trees in pictures: a regular "
                  "expression, e.g. \"OBJ.*|TREE.*\"");
-  app.add_option("--start", arguments.start, "of the start, m, z up (default: the scene's middle)")
+  app.add_option(
+         "--start", arguments.start,
+         "of the start, m, z up; Z names the storey, without it the lowest ground with 2 m of "
+         "room above it (default: near the scene's middle)")
       ->delimiter(',')
-      ->expected(2)
-      ->type_name("X,Y");
+      ->expected(2, 3)
+      ->type_name("X,Y[,Z]");
   app.add_option("--heading", arguments.heading, "of the start, deg from x towards y")
       ->capture_default_str();
   app.add_option("--speed", arguments.speed, "at the start, and held from then on, m/s")

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace bumper::examples {
 
@@ -61,17 +60,6 @@ void RaySuspension::addForces() {
                        hub.y(), hub.z());
   }
   car_.load(loads);
-}
-
-double groundHeight(dGeomID ground, double x, double y, double from) {
-  constexpr double reach = 1e4;
-  const dGeomID ray = dCreateRay(nullptr, reach);
-  dGeomRaySetClosestHit(ray, 1);
-  dGeomRaySet(ray, x, y, from, 0.0, 0.0, -1.0);
-  dContactGeom hit;
-  const bool found = firstHit(ray, ground, hit);
-  dGeomDestroy(ray);
-  return found ? from - hit.depth : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace bumper::examples

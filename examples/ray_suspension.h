@@ -31,8 +31,4 @@ class RaySuspension {
   std::array<double, 4> staticLoads_{};
 };
 
-/// Height of the ground under a place, m: the first triangle below `from`.
-/// Nothing is there: NaN.
-double groundHeight(dGeomID ground, double x, double y, double from);
-
 }  // namespace bumper::examples

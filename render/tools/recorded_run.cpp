@@ -5,23 +5,21 @@
 
 #include "bumper/response/error.h"
 #include "bumper/scenes/paper_scenes.h"
-#include "bumper/scenes/scene_files.h"
+#include "scene_loading.h"
 
 namespace bumper::tools {
 
 namespace {
 
 LoadOptions loadOptions(const RecordedRunOptions& options, const SceneReference& reference) {
-  LoadOptions load{.scale = options.scale > 0.0 ? options.scale : reference.scale, .isolate = true};
-  const std::string& up = options.up.empty() ? reference.up : options.up;
-  if (up == "x") load.up = UpAxis::x;
-  if (up == "y") load.up = UpAxis::y;
-  if (up == "z") load.up = UpAxis::z;
-  return load;
+  return {.up = upAxis(options.up.empty() ? reference.up : options.up),
+          .scale = options.scale > 0.0 ? options.scale : reference.scale,
+          .isolate = true};
 }
 
 Scene sceneOf(const RecordedRunOptions& options, const SceneReference& reference) {
-  if (!options.scene.empty()) return loadScene(options.scene, loadOptions(options, reference));
+  if (!options.scene.empty())
+    return loadScene(options.scene, "--up", loadOptions(options, reference));
   if (reference.builtIn == "test_rail") return testRail();
   if (reference.builtIn == "course") return course();
   const std::string recording = options.recording.string();
@@ -32,7 +30,7 @@ Scene sceneOf(const RecordedRunOptions& options, const SceneReference& reference
     throw Error(recording + " took place in " + file.string() +
                 ", which is not there: say where it is with --scene");
   }
-  return loadScene(file, loadOptions(options, reference));
+  return loadScene(file, "--up", loadOptions(options, reference));
 }
 
 }  // namespace

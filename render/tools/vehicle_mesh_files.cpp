@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "bumper/response/error.h"
-#include "bumper/scenes/scene_files.h"
+#include "scene_loading.h"
 
 namespace bumper::tools {
 
@@ -16,17 +16,7 @@ namespace {
 
 std::shared_ptr<const Scene> load(const std::filesystem::path& file, const std::string& up,
                                   double turn) {
-  LoadOptions options{.isolate = true};
-  if (up == "x") options.up = UpAxis::x;
-  if (up == "y") options.up = UpAxis::y;
-  if (up == "z") options.up = UpAxis::z;
-  Scene mesh;
-  try {
-    mesh = loadScene(file, options);
-  } catch (const Error& error) {
-    const bool needsUp = std::string(error.what()).find("LoadOptions::up") != std::string::npos;
-    throw Error(std::string(error.what()) + (needsUp ? "; here: --vehicle-mesh-up" : ""));
-  }
+  Scene mesh = loadScene(file, "--vehicle-mesh-up", {.up = upAxis(up), .isolate = true});
   const Eigen::AngleAxisd turned(turn * std::numbers::pi / 180.0, Eigen::Vector3d::UnitZ());
   for (Eigen::Vector3d& vertex : mesh.vertices) vertex = turned * vertex;
   return std::make_shared<const Scene>(std::move(mesh));

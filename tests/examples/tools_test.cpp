@@ -21,6 +21,7 @@ namespace bumper::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr int done = 0;
 constexpr int failed = 1;
@@ -272,6 +273,50 @@ TEST_F(Tools, ADriveIsRecordedWithItsScene) {
   EXPECT_EQ(std::get<std::string>(recording.vehicles()[0].settings.at("mesh")), "../place.obj");
   // Found again, and the same.
   EXPECT_EQ(run("bumper-replay glb result/run.jsonl result/run.glb").words, "");
+}
+
+/// A floor, a roof 5 m above it and walls along y at both ends.
+Scene hall() {
+  Scene scene;
+  scene.meshes.resize(1);
+  for (const double z : {0.0, 5.0}) {
+    for (const auto& [x, y] : {std::pair(-15.0, -15.0), {15.0, -15.0}, {15.0, 15.0}, {-15.0, 15.0}})
+      scene.vertices.emplace_back(x, y, z);
+  }
+  for (const auto& [a, b, c, d] :
+       {std::array{0U, 1U, 2U, 3U}, {4U, 5U, 6U, 7U}, {0U, 3U, 7U, 4U}, {1U, 2U, 6U, 5U}}) {
+    scene.triangles.push_back({{a, b, c}, 0});
+    scene.triangles.push_back({{a, c, d}, 0});
+  }
+  return scene;
+}
+
+TEST_F(Tools, ADriveInAHallStartsOnItsFloorAndMeetsItsWall) {
+  saveScene(hall(), folder_.path() / "hall.obj");
+  for (const char* start : {"--start 0,0", "--start 0,0,5"}) {
+    const Outcome drive = run(
+        std::string("bumper-drive hall.obj --up z --speed 12 --duration 2 --out result ") + start);
+    ASSERT_EQ(drive.code, done) << drive.words;
+    const Recording recording = readRecording(folder_.path() / "result" / "run.jsonl");
+    const bool onRoof = std::string(start).ends_with("5");
+    const double height = recording.vehicles()[0].poses.front().position.z();
+    EXPECT_NEAR(height, onRoof ? 5.55 : 0.55, 0.2) << start;
+    EXPECT_EQ(recording.impacts().empty(), onRoof) << start;
+  }
+  expectError("bumper-drive hall.obj --up z --start 0", "--start", wrongCommandLine);
+  expectError("bumper-drive hall.obj --up z --start 0,0,0,0", "--start", wrongCommandLine);
+  expectError("bumper-drive hall.obj --up z --start 99,0,0", "no ground at --start 99,0");
+}
+
+TEST_F(Tools, WarnOfASceneThatLies) {
+  saveScene(hall(), folder_.path() / "hall.obj");
+  const Outcome drive = run("bumper-drive hall.obj --up y --duration 0.1 --out result");
+  EXPECT_THAT(drive.words, HasSubstr("warning: scene file \"hall.obj\" was read with y up"));
+  EXPECT_THAT(drive.words, HasSubstr("here: --up"));
+  EXPECT_THAT(run("bumper-replay glb run.jsonl hall.glb --scene hall.obj --up y").words,
+              HasSubstr("was read with y up"));
+  EXPECT_THAT(run("bumper-replay glb run.jsonl hall.glb --scene hall.obj --up z").words,
+              Not(HasSubstr("up, but")));
 }
 
 }  // namespace

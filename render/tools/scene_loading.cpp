@@ -1,0 +1,40 @@
+#include "scene_loading.h"
+
+#include <cstdio>
+
+#include "bumper/response/error.h"
+
+namespace bumper::tools {
+
+namespace {
+
+std::string withOption(const std::string& message, const std::string& upOption) {
+  const bool isAboutUp = message.find("LoadOptions::up") != std::string::npos;
+  return isAboutUp ? message + "; here: " + upOption : message;
+}
+
+}  // namespace
+
+std::optional<UpAxis> upAxis(const std::string& name) {
+  if (name == "x") return UpAxis::x;
+  if (name == "y") return UpAxis::y;
+  if (name == "z") return UpAxis::z;
+  return std::nullopt;
+}
+
+Scene loadScene(const std::filesystem::path& file, const std::string& upOption,
+                const LoadOptions& options) {
+  LoadReport report;
+  Scene scene;
+  try {
+    scene = bumper::loadScene(file, options, &report);
+  } catch (const Error& error) {
+    throw Error(withOption(error.what(), upOption));
+  }
+  for (const std::string& warning : report.warnings) {
+    std::fprintf(stderr, "warning: %s\n", withOption(warning, upOption).c_str());
+  }
+  return scene;
+}
+
+}  // namespace bumper::tools

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "bumper/scenes/scene_files.h"
+
+namespace bumper::tools {
+
+/// The axis that "x", "y" or "z" names; empty for anything else.
+std::optional<UpAxis> upAxis(const std::string& name);
+
+/// Reads a scene file and prints its warnings on standard error. `upOption` is the command line's
+/// name of LoadOptions::up, which warnings and errors about it name too.
+Scene loadScene(const std::filesystem::path& file, const std::string& upOption,
+                const LoadOptions& options);
+
+}  // namespace bumper::tools
