@@ -1,5 +1,6 @@
 #include "read_isolated.h"
 
+#include <dlfcn.h>
 #include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -30,25 +31,40 @@ constexpr const char* programName = "bumper-read-scene";
 constexpr double progressInterval = 100.0;  // ms
 constexpr const char* programVariable = "BUMPER_READ_SCENE";
 
+/// Where the program may stand, in the order of the search. A build has its programs side by side;
+/// an installation may be in another place than was configured, but is so as a whole.
+std::vector<std::filesystem::path> programFolders() {
+  std::vector<std::filesystem::path> folders;
+  std::error_code error;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error) {
+    folders.push_back(self.parent_path());
+    folders.push_back(self.parent_path() / BUMPER_LIBEXEC_FROM_BIN);
+  }
+  // This code may be in a shared library, of which the running program knows nothing else.
+  Dl_info library{};
+  if (dladdr(&programName, &library) != 0 && library.dli_fname != nullptr) {
+    const std::filesystem::path file = std::filesystem::canonical(library.dli_fname, error);
+    if (!error && file != self) folders.push_back(file.parent_path() / BUMPER_LIBEXEC_FROM_LIB);
+  }
+  folders.emplace_back(BUMPER_LIBEXEC_DIRECTORY);
+  return folders;
+}
+
 std::filesystem::path findProgram() {
   if (const char* given = std::getenv(programVariable); given != nullptr && *given != '\0') {
     if (access(given, X_OK) == 0) return given;
     throw Error(std::string(programVariable) + " is \"" + given + "\", which is not a program");
   }
-  std::error_code error;
-  // A build has its programs side by side; an installation may have been moved as a whole.
-  const std::filesystem::path here =
-      std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
-  std::filesystem::path beside = here / programName;
-  if (!error && access(beside.c_str(), X_OK) == 0) return beside;
-  std::filesystem::path moved = here.parent_path() / "libexec" / programName;
-  if (!error && access(moved.c_str(), X_OK) == 0) return moved;
-  std::filesystem::path installed = std::filesystem::path(BUMPER_LIBEXEC_DIRECTORY) / programName;
-  if (access(installed.c_str(), X_OK) == 0) return installed;
+  std::string tried;
+  for (const std::filesystem::path& folder : programFolders()) {
+    std::filesystem::path program = (folder / programName).lexically_normal();
+    if (access(program.c_str(), X_OK) == 0) return program;
+    tried += (tried.empty() ? "" : " nor ") + program.string();
+  }
   throw Error(std::string("the program ") + programName +
-              ", which LoadOptions::isolate needs, is neither " + beside.string() + " nor " +
-              moved.string() + " nor " + installed.string() + ": set " + programVariable +
-              " to where it is");
+              ", which LoadOptions::isolate needs, is neither " + tried + ": set " +
+              programVariable + " to where it is");
 }
 
 std::unique_ptr<ChildProcess> start(const std::filesystem::path& program,

@@ -35,7 +35,8 @@ struct LoadOptions {
   /// Reads the file in a child process, so that nothing a broken or hostile file does to the reader
   /// affects the caller: for untrusted files. Any format that assimp supports. The child process
   /// runs the program bumper-read-scene: the one that the environment variable BUMPER_READ_SCENE
-  /// names, or else the one beside the running program or where bumper is installed.
+  /// names, or else the one beside the running program, in the installation that this or the
+  /// library belongs to, or where bumper was configured to be installed.
   ///
   /// Without it, the formats whose readers withstand broken files are read: OBJ, glTF 2 and GLB,
   /// STL, FBX, 3DS; and AC3D, whose reader does not: a broken AC3D file ends the process.
