@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -143,14 +145,14 @@ TEST_F(BrokenFiles, IndicesOutOfRange) {
                     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                     "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
                     "end_header\n0 0 0\n1 0 0\n0 0 1\n3 0 1 9\n"),
-              {.isolate = true}, "uses vertex 9 of 3");
+              {.isolate = true});
 }
 
-// What follows makes assimp 5.2 loop for ever, crash, and ask for more memory than there is.
+// What follows makes assimp 5.2 loop for ever, crash, and ask for more memory than there is;
+// another version may say what is wrong.
 
 TEST_F(BrokenFiles, ThatNeverEnd) {
-  expectError(write("endless.ply", "ply\nformat ascii 1.0\n"), {.isolate = true, .timeout = 0.5},
-              "LoadOptions::timeout");
+  expectError(write("endless.ply", "ply\nformat ascii 1.0\n"), {.isolate = true, .timeout = 0.5});
 }
 
 TEST_F(BrokenFiles, ThatCrashTheReader) {
@@ -162,7 +164,14 @@ TEST_F(BrokenFiles, ThatNeedTooMuchMemory) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the memory limit is off with the address sanitizer, which maps terabytes";
 #endif
-  expectError(write("huge.off", "OFF\n400000000 400000000 0\n0 0 0\n"), {.isolate = true},
+  expectError(write("huge.off", "OFF\n400000000 400000000 0\n0 0 0\n"), {.isolate = true});
+  // A whole one, of zeros, which takes more room than there is.
+  constexpr std::uint32_t triangles = 2'000'000;
+  std::string beginning = binaryStl(1.0F);
+  std::memcpy(beginning.data() + 80, &triangles, sizeof triangles);
+  const std::filesystem::path large = write("large.stl", beginning);
+  std::filesystem::resize_file(large, 84 + 50 * std::uintmax_t{triangles});
+  expectError(large, {.isolate = true, .memoryLimit = std::size_t{128} << 20U},
               "LoadOptions::memoryLimit");
 }
 
