@@ -19,14 +19,19 @@ constexpr double headroom = 2.0;           // m
 constexpr double storey = 0.5;             // m that a named height may lie below its ground
 constexpr double sameSurface = 0.01;       // m
 constexpr double minGroundNormalUp = 0.7;  // 45°
+constexpr double minLevelNormalUp = 0.97;  // 14°
 
 Eigen::Vector3d areaVector(const Scene& scene, const Scene::Triangle& triangle) {
   const Eigen::Vector3d& a = scene.corner(triangle, 0);
   return 0.5 * (scene.corner(triangle, 1) - a).cross(scene.corner(triangle, 2) - a);
 }
 
-bool isGround(const Eigen::Vector3d& area) {
-  return std::abs(area.z()) >= minGroundNormalUp * area.norm();
+double normalUp(const Eigen::Vector3d& area) { return std::abs(area.z()) / area.norm(); }
+
+Eigen::Vector2d centreOf(const Scene& scene, const Scene::Triangle& triangle) {
+  return (scene.corner(triangle, 0) + scene.corner(triangle, 1) + scene.corner(triangle, 2))
+             .head<2>() /
+         3.0;
 }
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -77,7 +82,8 @@ std::vector<StartPlaces::Surface> StartPlaces::surfacesAt(const Eigen::Vector2d&
     if (area.z() == 0.0 || !covers(scene_, triangle, place)) continue;
     const Eigen::Vector3d& corner = scene_.corner(triangle, 0);
     const double height = corner.z() - (place - corner.head<2>()).dot(area.head<2>()) / area.z();
-    surfaces.push_back({height, isGround(area), area.z() > 0.0, area.z() < 0.0});
+    surfaces.push_back(
+        {height, normalUp(area) >= minGroundNormalUp, area.z() > 0.0, area.z() < 0.0});
   }
   std::sort(surfaces.begin(), surfaces.end(),
             [](const Surface& a, const Surface& b) { return a.height < b.height; });
@@ -100,7 +106,7 @@ bool StartPlaces::wallsStandOn(double height) const {
     const Eigen::Vector3d area = areaVector(scene_, triangle);
     const double foot = std::min({scene_.corner(triangle, 0).z(), scene_.corner(triangle, 1).z(),
                                   scene_.corner(triangle, 2).z()});
-    return std::abs(area.z()) <= maxNormalUp * area.norm() && foot >= height - sameSurface;
+    return normalUp(area) <= maxNormalUp && foot >= height - sameSurface;
   });
 }
 
@@ -136,7 +142,7 @@ std::optional<Eigen::Vector2d> StartPlaces::middle() const {
   std::vector<Scene::Triangle> ground;
   for (const Scene::Triangle& triangle : triangles_) {
     for (std::size_t k = 0; k < 3; ++k) box.extend(scene_.corner(triangle, k).head<2>());
-    if (isGround(areaVector(scene_, triangle))) ground.push_back(triangle);
+    if (normalUp(areaVector(scene_, triangle)) >= minGroundNormalUp) ground.push_back(triangle);
   }
   if (ground.empty()) return std::nullopt;
   const std::vector<std::uint32_t> pieces = piecesOf(scene_, ground);
@@ -147,18 +153,19 @@ std::optional<Eigen::Vector2d> StartPlaces::middle() const {
   const auto largest = static_cast<std::uint32_t>(
       std::distance(areas.begin(), std::max_element(areas.begin(), areas.end())));
   const Eigen::Vector2d middle = box.center();
-  Eigen::Vector2d nearest = middle;
+  std::optional<Eigen::Vector2d> nearest;
   double least = std::numeric_limits<double>::infinity();
+  bool isNearestLevel = false;
   for (const Scene::Triangle& triangle : ground) {
     if (pieces[triangle.corners[0]] != largest) continue;
-    if (covers(scene_, triangle, middle)) return middle;
+    const bool isLevel = normalUp(areaVector(scene_, triangle)) >= minLevelNormalUp;
     const Eigen::Vector2d place =
-        (scene_.corner(triangle, 0) + scene_.corner(triangle, 1) + scene_.corner(triangle, 2))
-            .head<2>() /
-        3.0;
-    if ((place - middle).norm() >= least) continue;
-    least = (place - middle).norm();
+        covers(scene_, triangle, middle) ? middle : centreOf(scene_, triangle);
+    const double distance = (place - middle).norm();
+    if (isLevel == isNearestLevel ? distance >= least : isNearestLevel) continue;
     nearest = place;
+    least = distance;
+    isNearestLevel = isLevel;
   }
   return nearest;
 }

@@ -25,8 +25,9 @@ class StartPlaces {
   /// a metre above it; if there is none, the lowest.
   [[nodiscard]] std::optional<double> groundNear(const Eigen::Vector2d& place, double height) const;
 
-  /// The place nearest to the scene's middle on the largest connected piece of ground: its middle
-  /// or that of one of its triangles. Empty if there is no ground.
+  /// The place nearest to the scene's middle on the largest connected piece of ground, where that
+  /// is level to 14° if it is so anywhere: the scene's middle or that of a triangle. Empty if there
+  /// is no ground.
   [[nodiscard]] std::optional<Eigen::Vector2d> middle() const;
 
  private:

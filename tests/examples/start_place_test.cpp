@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace bumper::examples {
@@ -150,6 +152,23 @@ TEST(StartPlaces, OfTheMiddleAreBesideABlock) {
   ASSERT_TRUE(middle);
   EXPECT_GT(middle->cwiseAbs().maxCoeff(), 10.0);
   EXPECT_EQ(places.lowestGround(*middle), 0.0);
+}
+
+TEST(StartPlaces, OfTheMiddleAreLevelIfTheyMay) {
+  // A bank of 30° in the middle, and level land at its foot.
+  Scene scene = emptyScene();
+  const std::uint32_t first = addCorners(scene, {Vector3d(-20, -9, 0), Vector3d(20, -9, 0),
+                                                 Vector3d(20, 9, 10), Vector3d(-20, 9, 10)});
+  addQuad(scene, first, first + 1, first + 2, first + 3);
+  EXPECT_EQ(StartPlaces(scene, noScenery).middle(), Vector2d(0, 0));
+  scene.vertices.emplace_back(20, -18, 0);
+  scene.vertices.emplace_back(-20, -18, 0);
+  addQuad(scene, first, first + 5, first + 4, first + 1);
+  scene.vertices.emplace_back(0, 18, 10);
+  scene.triangles.push_back({{first + 2, first + 6, first + 3}, 0});
+  const StartPlaces places(scene, noScenery);
+  const Vector2d middle = places.middle().value();
+  EXPECT_GT(std::abs(middle.y()), 9.0);
 }
 
 TEST(StartPlaces, OfTheMiddleNeedGround) {
