@@ -62,6 +62,7 @@ void NearbyWalls::list(const Envelope& vehicle,
       listFaces(*barrier, query_.list(*barrier->mesh(), vehicle, state, margins_));
     }
   }
+  listedSurfaces_ = surfaces_.size();
   isKnown_ = true;
 }
 
@@ -135,23 +136,12 @@ std::optional<Segment> NearbyWalls::pieceOf(const Near& near, const Envelope& ve
   return piece;
 }
 
-void NearbyWalls::enter(const Owner& owner, double depth) {
-  const auto known = std::find(owners_.begin(), owners_.end(), owner);
-  if (known == owners_.end()) return;
-  Surface& surface = surfaces_[static_cast<std::size_t>(known - owners_.begin())];
-  surface.entered = true;
-  surface.depth = std::max(surface.depth, depth);
-}
-
-void NearbyWalls::remove(const Owner& owner) {
-  std::erase_if(segments_, [&](const Segment& wall) { return ownerOf(wall) == owner; });
-}
-
 void NearbyWalls::collect(const Envelope& vehicle,
                           const std::vector<std::unique_ptr<Barrier>>& barriers,
                           const VehicleState& state, const Question& question) {
   if (!covers(vehicle, state, question.reach)) list(vehicle, barriers, state, question.reach);
-  for (Surface& surface : surfaces_) surface = {.settings = surface.settings};
+  surfaces_.resize(listedSurfaces_);
+  owners_.resize(listedSurfaces_);
   segments_.clear();
   if (!question.evenIfNoneIsThere && !wasThere_) {
     const auto mayBeThere = [&](const Near& each) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
@@ -63,10 +65,13 @@ class NearbyWalls {
   [[nodiscard]] const ResponseSettings& settingsOf(int surface) const {
     return *surfaces_[static_cast<std::size_t>(surface)].settings;
   }
-  /// A long force pulse of that surface runs, which allows this penetration, m.
-  void enter(const Owner& owner, double depth);
-  /// Removes that surface's segments.
-  void remove(const Owner& owner);
+  /// A long force pulse of those segments runs, which allows this penetration, m.
+  template <typename IsOfIt>
+  void enter(const IsOfIt& isOfIt, double depth);
+  template <typename IsOfIt>
+  void remove(const IsOfIt& isOfIt) {
+    std::erase_if(segments_, isOfIt);
+  }
 
   /// A wall of the face with that number, until the next collect().
   [[nodiscard]] BarrierWall at(int number) const {
@@ -104,10 +109,34 @@ class NearbyWalls {
   WallQuery::Margins margins_;                          // how far it reaches beyond the envelope
   std::vector<Near> faces_;
   std::vector<Surface> surfaces_;
-  std::vector<Owner> owners_;  // of the surfaces
+  std::vector<Owner> owners_;      // of the surfaces
+  std::size_t listedSurfaces_ = 0;  // the first of both; what comes after is entered
   std::vector<Segment> segments_;
   // Walls were found in the last step: cutting all faces at once is then fastest.
   bool wasThere_ = false;
 };
+
+template <typename IsOfIt>
+void NearbyWalls::enter(const IsOfIt& isOfIt, double depth) {
+  for (Segment& segment : segments_) {
+    if (!isOfIt(segment)) continue;
+    const auto number = static_cast<std::size_t>(segment.surface);
+    if (surfaces_[number].entered) {
+      surfaces_[number].depth = std::max(surfaces_[number].depth, depth);
+      continue;
+    }
+    std::size_t entered = listedSurfaces_;
+    while (entered < surfaces_.size() &&
+           !(owners_[entered] == owners_[number] && surfaces_[entered].depth == depth)) {
+      ++entered;
+    }
+    if (entered == surfaces_.size()) {
+      owners_.push_back(Owner(owners_[number]));
+      surfaces_.push_back(
+          {.settings = surfaces_[number].settings, .entered = true, .depth = depth});
+    }
+    segment.surface = static_cast<int>(entered);
+  }
+}
 
 }  // namespace bumper

@@ -333,7 +333,7 @@ void Responder::restore(const SavedState& state) {
   }
   for (const VehicleMemory& memory : state.vehicles) {
     registered(self.vehicles, memory.vehicle.value, "vehicle");
-    for (const PassableSurface& surface : memory.passable) {
+    for (const PassableWall& surface : memory.passable) {
       const Barrier& barrier = registered(self.barriers, surface.barrier.value, "barrier");
       if (surface.settings < 0 || surface.settings >= barrier.settingsCount()) {
         throw Error("restore: barrier '" + barrier.name() + "' has no settings number " +

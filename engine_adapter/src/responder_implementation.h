@@ -61,7 +61,7 @@ struct Responder::Implementation {
   void deliver(Vehicle& vehicle, double h);
 
   /// Excludes from the walls nearby those that the vehicle passes through.
-  void applyPassableSurfaces(Vehicle& vehicle) const;
+  void applyPassableWalls(Vehicle& vehicle) const;
 
   [[nodiscard]] static ImpactEvent eventAt(const Vehicle& vehicle, const Barrier& barrier, int wall,
                                            const Eigen::Vector3d& contact,

@@ -131,7 +131,7 @@ void Responder::Implementation::read(Vehicle& vehicle, double h) {
   }
   if (mayHaveEnded(memory.contacts, time)) reportEndedContacts(vehicle);
   if (!delivering) vehicle.memoryBefore = memory;
-  applyPassableSurfaces(vehicle);
+  applyPassableWalls(vehicle);
 }
 
 void Responder::Implementation::collectWalls(Vehicle& vehicle, double h) {
@@ -167,18 +167,21 @@ void Responder::Implementation::solve(Vehicle& vehicle, double h) {
     const Barrier& barrier = *hit.barrier;
     const int number = barrier.settingsNumberOf(hit.wall);
     const double contactTime = barrier.settings(number).contactTime;
+    PassableWall passable{.barrier = barrier.id(),
+                          .settings = number,
+                          .place = state.massCentre + state.toWorld(each.impact.point),
+                          .normal = state.toWorld(each.impact.normal)};
     if (contactTime > 0.0) {
       pulse.addLong(each.response.impulse, each.time, contactTime);
-      vehicle.memory.passable.push_back(
-          {.barrier = barrier.id(),
-           .settings = number,
-           .until = time + each.time + contactTime,
-           .depth = enteredDepth(each.response.approachSpeed, contactTime)});
+      passable.until = time + each.time + contactTime;
+      passable.depth = enteredDepth(each.response.approachSpeed, contactTime);
+      vehicle.memory.passable.push_back(passable);
     } else {
       pulse.add(each.response.impulse, each.time, h);
     }
     if (each.response.brokeThrough) {
-      vehicle.memory.passable.push_back({.barrier = barrier.id(), .settings = number});
+      passable.until = passable.depth = 0.0;
+      vehicle.memory.passable.push_back(passable);
     }
     reportImpact(vehicle, barrier, hit.wall, each);
   }

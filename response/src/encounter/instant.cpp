@@ -111,7 +111,8 @@ void Instant::answer(const Next& next, double time, Rebound rebound) {
   ++answers_;
   if (!response.brokeThrough) return;
   for (Manifold& other : contacts_.all()) {
-    other.passed |= other.segment.surface == wall.segment.surface;
+    other.passed |= other.segment.surface == wall.segment.surface &&
+                    isOneWall(other.segment, next.at.contact.point, next.at.normal);
   }
 }
 

@@ -11,12 +11,14 @@
 /// world frame unless said otherwise.
 namespace bumper {
 
-/// The walls with one of a barrier's settings that a vehicle passes through: they broke and the
-/// outline has not left them yet, or their long force pulse still runs.
-struct PassableSurface {
+/// A wall that a vehicle passes through: it broke and the outline has not left it yet, or its long
+/// force pulse still runs. Of the barrier's walls with these settings those that isOneWall() says.
+struct PassableWall {
   BarrierId barrier;
-  int settings = 0;    ///< number of the settings in the barrier
-  double until = 0.0;  ///< end of the pulse; 0 if they broke
+  int settings = 0;  ///< number of the settings in the barrier
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();   ///< where it was hit, m
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, into the vehicle
+  double until = 0.0;  ///< end of the pulse; 0 if it broke
   double depth = 0.0;  ///< penetration that the pulse allows, m
 };
 
@@ -69,7 +71,7 @@ struct VehicleMemory {
   ForcePulse pulse;  ///< not yet delivered, in the vehicle's axes at the last step
   LastDelivery delivery;
   Expectation expectation;
-  std::vector<PassableSurface> passable;
+  std::vector<PassableWall> passable;
   std::vector<SustainedContact> contacts;
   std::vector<GuardLoad> guards;  ///< in a saved state only
 };

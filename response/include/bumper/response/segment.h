@@ -25,6 +25,11 @@ struct Segment {
   [[nodiscard]] bool isPost() const { return radius > 0.0; }
 };
 
+/// Whether a segment belongs to the wall that was hit at `place` along `normal`, unit: whether it
+/// lies within 0.25 m of that wall's line and turns away from it by less than 30°. On a wall that
+/// bends the line may be left by 0.27 m more for each metre along it.
+bool isOneWall(const Segment& segment, const Vector2& place, const Vector2& normal);
+
 /// How segments respond. Collinear segments whose surfaces share a settings object are one wall;
 /// those that break, or are entered, only if they share the surface.
 struct Surface {
