@@ -159,6 +159,14 @@ std::optional<Overlap> findOverlap(const Outline& outline, const Placement& at,
   return overlap;
 }
 
+std::optional<Overlap> findFaceTouch(const Outline& outline, const Placement& at,
+                                     const Segment& wall) {
+  Overlap face = lineOf(wall, at.position);
+  measure(face, inWallAxes(outline, at, face), interference(outline, at, wall));
+  if (!(face.depth >= -touchTolerance)) return std::nullopt;
+  return face;
+}
+
 std::optional<Overlap> findTouch(const Outline& outline, const Placement& at, const Segment& wall) {
   if (wall.isPost()) return touchPost(outline, at, wall);
 

@@ -14,17 +14,29 @@ namespace bumper {
 
 namespace {
 
+constexpr double behindTolerance = 1e-6;  // m
+
 // Whether what is inside the outline of one wall lies behind the face of another.
 bool isBehind(const Overlap& wall, const Overlap& front) {
-  constexpr double tolerance = 1e-6;  // m
   if (front.byEnd) return false;
   const Vector2 tangent = turnedLeft(front.normal);
   const auto hiddenAt = [&](const Vector2& point) {
     const double along = tangent.dot(point);
-    return front.normal.dot(point) <= front.offset + tolerance &&
-           along >= front.start - tolerance && along <= front.end + tolerance;
+    return front.normal.dot(point) <= front.offset + behindTolerance &&
+           along >= front.start - behindTolerance && along <= front.end + behindTolerance;
   };
   return hiddenAt(wall.insideFrom) && hiddenAt(wall.insideTo);
+}
+
+// Whether what is inside the outline of one wall lies on the face of another, from where it rises:
+// the second wall of an inside corner that is just reached.
+bool risesFrom(const Manifold& wall, const Overlap& front) {
+  const auto height = [&](const Vector2& point) { return front.normal.dot(point) - front.offset; };
+  const Overlap& inside = wall.overlap;
+  const double lowest = std::min(height(inside.insideFrom), height(inside.insideTo));
+  const double highest = std::max(height(wall.segment.start), height(wall.segment.end));
+  return lowest >= -behindTolerance && highest > behindTolerance &&
+         highest > inLine * (wall.segment.end - wall.segment.start).norm();
 }
 
 }  // namespace
@@ -71,7 +83,7 @@ std::optional<Overlap> ContactSet::overlapWith(const Segment& wall, double time)
   if (time == 0.0 && touch->depth > slidingDepth) return byFace();
   if (touch->byEnd && isShielded(*touch)) {
     // The corner of two walls, one of which it touches; or nothing that could be touched.
-    std::optional<Overlap> face = byFace();
+    std::optional<Overlap> face = findFaceTouch(vehicle_.outline, place_, wall);
     if (face && time > 0.0 && face->depth > slidingDepth) return std::nullopt;
     return face;
   }
@@ -98,7 +110,7 @@ bool ContactSet::isShielded(const Overlap& end) const {
 bool ContactSet::isHidden(const Manifold& wall) const {
   return std::any_of(manifolds_.begin(), manifolds_.end(), [&](const Manifold& other) {
     if (&wall == &other || !other.touched || other.passed) return false;
-    if (!isBehind(wall.overlap, other.overlap)) return false;
+    if (!isBehind(wall.overlap, other.overlap) || risesFrom(wall, other.overlap)) return false;
     if (!isBehind(other.overlap, wall.overlap)) return true;
     // Each behind the other: a convex corner. The vehicle entered through the one touched last.
     const double own = sinceTouch(wall);

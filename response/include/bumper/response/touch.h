@@ -48,6 +48,10 @@ Overlap lineOf(const Segment& wall, const Vector2& position);
 std::optional<Overlap> findOverlap(const Outline& outline, const Placement& at,
                                    const Segment& wall);
 
+/// The same within touchTolerance: a wall of which no more than an end is met counts as well.
+std::optional<Overlap> findFaceTouch(const Outline& outline, const Placement& at,
+                                     const Segment& wall);
+
 /// The same within touchTolerance, and along the direction in which outline and wall overlap least:
 /// a face of the wall met by a corner or side, or a side of the outline met by an end of the wall.
 std::optional<Overlap> findTouch(const Outline& outline, const Placement& at, const Segment& wall);
