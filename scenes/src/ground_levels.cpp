@@ -11,9 +11,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "corners.h"
+#include "pieces.h"
 #include "single_precision.h"
 #include "triangle.h"
 #include "weld.h"
@@ -28,58 +28,32 @@ constexpr double narrowest = 1.0;
 /// Ranges of height of one cell that are no further apart than this, m, become one.
 constexpr float levelGap = 0.5F;
 
-std::vector<std::uint32_t> flatTriangles(const Scene& scene, double maxNormalUp) {
-  std::vector<std::uint32_t> flat;
+std::vector<FlatTriangle> flatTriangles(const Scene& scene, double maxNormalUp) {
+  std::vector<FlatTriangle> flat;
   for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
     const Scene::Triangle& triangle = scene.triangles[i];
     const Eigen::Vector3d& a = scene.corner(triangle, 0);
     const Eigen::Vector3d normal =
         (scene.corner(triangle, 1) - a).cross(scene.corner(triangle, 2) - a);
     if (normal.z() * normal.z() > maxNormalUp * maxNormalUp * normal.squaredNorm()) {
-      flat.push_back(i);
+      flat.push_back({.triangle = i, .wide = false});
     }
   }
   return flat;
 }
-
-/// Connected components, by their corners (union-find).
-class Pieces {
- public:
-  explicit Pieces(std::size_t corners) : parents_(corners) {
-    std::iota(parents_.begin(), parents_.end(), 0U);
-  }
-
-  std::uint32_t find(std::uint32_t corner) {
-    while (parents_[corner] != corner) {
-      parents_[corner] = parents_[parents_[corner]];
-      corner = parents_[corner];
-    }
-    return corner;
-  }
-
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parents_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parents_;
-};
 
 struct Extent {
   double area = 0.0;
   Eigen::AlignedBox2d box;
 };
 
-/// Leaves out what is too narrow for a vehicle.
-void keepWide(const Scene& scene, std::vector<std::uint32_t>& flat) {
-  const std::vector<std::uint32_t> welded = weld(scene.vertices);
+void findWide(const Scene& scene, const std::vector<std::uint32_t>& welded,
+              std::vector<FlatTriangle>& flat) {
   Pieces pieces(welded.size());
   const auto cornerOf = [&](std::uint32_t triangle, std::size_t k) {
     return welded[scene.triangles[triangle].corners.at(k)];
   };
-  for (const std::uint32_t i : flat) {
+  for (const auto& [i, wide] : flat) {
     pieces.join(cornerOf(i, 0), cornerOf(i, 1));
     pieces.join(cornerOf(i, 0), cornerOf(i, 2));
   }
@@ -87,14 +61,14 @@ void keepWide(const Scene& scene, std::vector<std::uint32_t>& flat) {
   std::vector<std::uint32_t> pieceOf(flat.size());
   std::vector<Extent> extents;
   for (std::size_t n = 0; n < flat.size(); ++n) {
-    std::uint32_t& number = numbers[pieces.find(cornerOf(flat[n], 0))];
+    std::uint32_t& number = numbers[pieces.find(cornerOf(flat[n].triangle, 0))];
     if (number == noIndex) {
       number = static_cast<std::uint32_t>(extents.size());
       extents.emplace_back();
     }
     pieceOf[n] = number;
     Extent& extent = extents[number];
-    const Scene::Triangle& triangle = scene.triangles[flat[n]];
+    const Scene::Triangle& triangle = scene.triangles[flat[n].triangle];
     const Eigen::Vector2d a = scene.corner(triangle, 0).head<2>();
     const Eigen::Vector2d u = scene.corner(triangle, 1).head<2>() - a;
     const Eigen::Vector2d v = scene.corner(triangle, 2).head<2>() - a;
@@ -103,12 +77,10 @@ void keepWide(const Scene& scene, std::vector<std::uint32_t>& flat) {
       extent.box.extend(scene.corner(triangle, k).head<2>());
     }
   }
-  std::size_t kept = 0;
   for (std::size_t n = 0; n < flat.size(); ++n) {
     const Extent& extent = extents[pieceOf[n]];
-    if (extent.area >= narrowest * extent.box.diagonal().norm()) flat[kept++] = flat[n];
+    flat[n].wide = extent.area >= narrowest * extent.box.diagonal().norm();
   }
-  flat.resize(kept);
 }
 
 }  // namespace
@@ -159,8 +131,13 @@ void GroundLevels::add(std::size_t cell, float low, float high) {
 }
 
 GroundLevels::GroundLevels(const Scene& scene, double maxNormalUp, double distance) {
-  std::vector<std::uint32_t> ground = flatTriangles(scene, maxNormalUp);
-  keepWide(scene, ground);
+  flat_ = flatTriangles(scene, maxNormalUp);
+  welded_ = weld(scene.vertices);
+  findWide(scene, welded_, flat_);
+  std::vector<std::uint32_t> ground;
+  for (const auto& [triangle, wide] : flat_) {
+    if (wide) ground.push_back(triangle);
+  }
   if (ground.empty()) return;
   std::vector<Eigen::Vector2d> boxes;
   boxes.reserve(2 * ground.size());
@@ -193,13 +170,12 @@ GroundLevels::Place GroundLevels::placeOf(const Wall& wall, const GroundReach& r
   cells = {std::max<std::int64_t>(cells.left, 0), std::min(cells.right, across_ - 1),
            std::max<std::int64_t>(cells.near, 0), std::min(cells.far, deep_ - 1)};
   bool anyBelow = false;
-  bool any = false;
+  bool anyAbove = false;
   for (std::int64_t y = cells.near; y <= cells.far; ++y) {
     for (std::int64_t x = cells.left; x <= cells.right; ++x) {
       for (std::uint32_t i = first_[static_cast<std::size_t>(y * across_ + x)]; i != noIndex;
            i = levels_[i].next) {
         const Level& level = levels_[i];
-        any = true;
         if (static_cast<double>(level.high) + reach.above < box.min().z()) {
           anyBelow = true;
           // A wall is judged by its whole surface from above: the ground of one whose upper end is
@@ -207,12 +183,14 @@ GroundLevels::Place GroundLevels::placeOf(const Wall& wall, const GroundReach& r
         } else if (static_cast<double>(level.low) - reach.below <=
                    std::max(box.max().z(), wall.top)) {
           return Place::within_reach;
+        } else {
+          anyAbove = true;
         }
       }
     }
   }
-  if (!any) return Place::without_ground;
-  return anyBelow ? Place::overhead : Place::buried;
+  if (anyBelow) return anyAbove ? Place::between : Place::above_ground;
+  return anyAbove ? Place::below_ground : Place::without_ground;
 }
 
 }  // namespace bumper

@@ -8,7 +8,13 @@
 
 namespace bumper {
 
-/// The heights at which a scene has ground, place by place: any number of storeys. Coarse, and
+/// A triangle of a scene that is no wall by its slope.
+struct FlatTriangle {
+  std::uint32_t triangle;  ///< index into Scene::triangles
+  bool wide;               ///< part of a connected surface that is wide enough for a vehicle
+};
+
+/// The heights at which a scene has wide ground, place by place: any number of storeys. Coarse, and
 /// never less than there is.
 class GroundLevels {
  public:
@@ -17,10 +23,12 @@ class GroundLevels {
   GroundLevels(const Scene& scene, double maxNormalUp, double distance);
 
   [[nodiscard]] bool empty() const { return levels_.empty(); }
+  [[nodiscard]] const std::vector<FlatTriangle>& flat() const { return flat_; }
+  /// The scene's vertices, as numbers that are equal where the points are.
+  [[nodiscard]] const std::vector<std::uint32_t>& welded() const { return welded_; }
 
-  enum class Place { within_reach, overhead, buried, without_ground };
-
-  /// Where a wall lies for vehicles on the ground nearby.
+  /// Where the wide ground nearby is that a wall is out of reach of.
+  enum class Place { within_reach, above_ground, below_ground, between, without_ground };
   [[nodiscard]] Place placeOf(const Wall& wall, const GroundReach& reach) const;
 
  private:
@@ -44,6 +52,8 @@ class GroundLevels {
   double cellSize_ = 1.0;
   std::int64_t across_ = 0;
   std::int64_t deep_ = 0;
+  std::vector<FlatTriangle> flat_;
+  std::vector<std::uint32_t> welded_;
   std::vector<std::uint32_t> first_;  // by cell: its first level
   std::vector<Level> levels_;
 };

@@ -14,17 +14,6 @@ namespace {
 constexpr double minEvenness = 0.966;
 constexpr double maxStep = 0.03;
 
-/// In plan, edges included.
-bool covers(const TriangleCorners& triangle, const Vector2& place) {
-  const Vector2 a = triangle[0].head<2>() - place;
-  const Vector2 b = triangle[1].head<2>() - place;
-  const Vector2 c = triangle[2].head<2>() - place;
-  const double ab = cross(a, b);
-  const double bc = cross(b, c);
-  const double ca = cross(c, a);
-  return (ab >= 0.0 && bc >= 0.0 && ca >= 0.0) || (ab <= 0.0 && bc <= 0.0 && ca <= 0.0);
-}
-
 std::vector<TriangleCorners> flatTriangles(const Scene& scene, const std::vector<bool>& isWall) {
   std::vector<TriangleCorners> flat;
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
@@ -36,6 +25,16 @@ std::vector<TriangleCorners> flatTriangles(const Scene& scene, const std::vector
 }
 
 }  // namespace
+
+bool covers(const TriangleCorners& triangle, const Vector2& place) {
+  const Vector2 a = triangle[0].head<2>() - place;
+  const Vector2 b = triangle[1].head<2>() - place;
+  const Vector2 c = triangle[2].head<2>() - place;
+  const double ab = cross(a, b);
+  const double bc = cross(b, c);
+  const double ca = cross(c, a);
+  return (ab >= 0.0 && bc >= 0.0 && ca >= 0.0) || (ab <= 0.0 && bc <= 0.0 && ca <= 0.0);
+}
 
 Eigen::Vector3d upwardNormal(const TriangleCorners& triangle) {
   const Eigen::Vector3d normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);

@@ -23,6 +23,9 @@ struct GroundProbe {
 std::vector<bool> onGround(const std::vector<GroundProbe>& probes, const Scene& scene,
                            const std::vector<bool>& isWall);
 
+/// Whether a triangle covers a place in plan, edges included.
+bool covers(const TriangleCorners& triangle, const Vector2& place);
+
 /// The unit normal of a triangle of either winding that points up.
 Eigen::Vector3d upwardNormal(const TriangleCorners& triangle);
 

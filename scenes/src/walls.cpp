@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "bumper/response/error.h"
+#include "ground_below.h"
 #include "ground_levels.h"
 #include "repeated_walls.h"
 #include "triangle.h"
@@ -95,6 +98,11 @@ void describe(Walls& walls) {
   }
 }
 
+/// Out of reach of ground below: of what lies below all ground, the ground may not be in the scene.
+bool isAbove(GroundLevels::Place place) {
+  return place == GroundLevels::Place::above_ground || place == GroundLevels::Place::between;
+}
+
 }  // namespace
 
 Walls selectWalls(const Scene& scene, const WallSelection& selection) {
@@ -121,22 +129,28 @@ void dropOutOfReach(const Scene& scene, const WallSelection& selection, Walls& w
   const GroundLevels ground(scene, steepestGround(selection), reach.distance);
   if (ground.empty()) return;
   WallReport& report = walls.report;
-  std::erase_if(walls.walls, [&](const Wall& wall) {
-    switch (ground.placeOf(wall, reach)) {
-      case GroundLevels::Place::overhead:
-        ++report.droppedOverhead;
-        return true;
-      case GroundLevels::Place::buried:
-        ++report.droppedBuried;
-        return true;
-      case GroundLevels::Place::without_ground:
-        ++report.withoutGround;
-        return false;
-      case GroundLevels::Place::within_reach:
-        return false;
+  using Place = GroundLevels::Place;
+  std::vector<Place> places;
+  places.reserve(walls.walls.size());
+  std::vector<Wall> outOfReach;
+  for (const Wall& wall : walls.walls) {
+    places.push_back(ground.placeOf(wall, reach));
+    if (isAbove(places.back())) outOfReach.push_back(wall);
+  }
+  std::optional<GroundBelow> below;
+  if (!outOfReach.empty()) below.emplace(scene, ground.flat(), reach, outOfReach);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Wall& wall = walls.walls[i];
+    if (isAbove(places[i]) && below->isProvenFor(wall)) {
+      ++(places[i] == Place::between ? report.droppedBuried : report.droppedOverhead);
+      continue;
     }
-    return false;
-  });
+    report.withoutGround += places[i] == Place::without_ground ? 1 : 0;
+    report.inDoubt += isAbove(places[i]) || places[i] == Place::below_ground ? 1 : 0;
+    walls.walls[kept++] = wall;
+  }
+  walls.walls.resize(kept);
   describe(walls);
 }
 

@@ -65,25 +65,35 @@ TEST(GroundReach, KeepsWhatStandsOnTheGround) {
   EXPECT_EQ(report.dropped(), 2U);
 }
 
-TEST(GroundReach, DropsWhatHangsTooHighOrLiesTooLow) {
+TEST(GroundReach, DropsWhatHangsTooHigh) {
   Scene scene = plain();
   addWall(scene, {0, 0}, 3.0, 4.0);
   addWall(scene, {0, 5}, 7.1, 9.0);
-  addWall(scene, {0, 10}, -9.0, 0.9);
   const Walls walls = selectWalls(scene);
   EXPECT_EQ(walls.report.walls, 2U);
   EXPECT_EQ(walls.report.droppedOverhead, 2U);
-  EXPECT_EQ(walls.report.droppedBuried, 2U);
+  EXPECT_EQ(walls.report.inDoubt, 0U);
   EXPECT_EQ(walls.report.highestTop, 4.0);
   EXPECT_EQ(walls.report.lowestFoot, 3.0);
   EXPECT_EQ(walls.report.walls + walls.report.dropped(), scene.triangles.size());
   EXPECT_EQ(walls.report.memory, 2 * sizeof(Wall));
 }
 
+TEST(GroundReach, KeepsWhatLiesBelowAllGround) {
+  // What is over it may be a roof, and its own ground not in the scene.
+  Scene scene = plain();
+  addWall(scene, {0, 10}, -9.0, 0.9);
+  const WallReport report = selectWalls(scene).report;
+  EXPECT_EQ(report.walls, 2U);
+  EXPECT_EQ(report.inDoubt, 2U);
+}
+
 TEST(GroundReach, IsASetting) {
   Scene scene = plain();
-  addWall(scene, {0, 5}, 7.1, 9.0);
-  addWall(scene, {0, 10}, -9.0, 0.9);
+  addFloor(scene, {-20, -20}, {20, 20}, 13.0);
+  addWall(scene, {0, 5}, 7.1, 8.0);
+  addWall(scene, {0, 10}, 7.5, 10.9);
+  EXPECT_EQ(selectWalls(scene).report.walls, 0U);
   EXPECT_EQ(selectWalls(scene, {.groundReach = std::nullopt}).report.walls, 4U);
   EXPECT_EQ(selectWalls(scene, {.groundReach = GroundReach{.above = 4.2}}).report.walls, 2U);
   EXPECT_EQ(selectWalls(scene, {.groundReach = GroundReach{.below = 2.2}}).report.walls, 2U);
@@ -108,13 +118,23 @@ TEST(GroundReach, KeepsWhatStandsWhereTheSceneHasNoGround) {
 }
 
 TEST(GroundReach, LooksAFewMetresAround) {
-  Scene scene;
-  addFloor(scene, {-50, -50}, {0, 50}, 0.0);
-  addFloor(scene, {0, -50}, {50, 50}, 20.0);
-  addWall(scene, {7, 0}, 0.0, 1.0);  // below the upper plain, 7 m from the lower one
-  addWall(scene, {30, 0}, 0.0, 1.0);
+  Scene scene = plain();
+  addFloor(scene, {0, -50}, {50, 50}, 23.0);
+  addWall(scene, {-11, 0}, 23.0, 24.0);  // 7 m from the upper plain
+  addWall(scene, {-40, 0}, 23.0, 24.0);
   EXPECT_EQ(selectWalls(scene).report.walls, 2U);
-  EXPECT_EQ(selectWalls(scene).report.droppedBuried, 2U);
+  EXPECT_EQ(selectWalls(scene).report.droppedOverhead, 2U);
+}
+
+TEST(GroundReach, KeepsWhatHangsWhereTheGroundBelowEnds) {
+  // Beyond its end the ground may be as high as the wall.
+  Scene scene = plain();
+  addWall(scene, {46, 0}, 23.0, 24.0);  // at the end itself
+  addWall(scene, {45, 5}, 23.0, 24.0);  // a metre before it
+  addWall(scene, {44, 10}, 23.0, 24.0);
+  const WallReport report = selectWalls(scene).report;
+  EXPECT_EQ(report.inDoubt, 4U);
+  EXPECT_EQ(report.droppedOverhead, 2U);
 }
 
 TEST(GroundReach, BeamsAreNoGround) {
@@ -138,7 +158,8 @@ TEST(GroundReach, KnowsStoreys) {
   addWall(scene, {0, 4}, 18.0, 20.0);  // between the decks
   addWall(scene, {0, 5}, 27.5, 28.0);
   EXPECT_EQ(selectWalls(scene).report.walls, 6U);
-  EXPECT_EQ(selectWalls(scene).report.droppedOverhead, 6U);
+  EXPECT_EQ(selectWalls(scene).report.droppedOverhead, 2U);
+  EXPECT_EQ(selectWalls(scene).report.droppedBuried, 4U);
 }
 
 TEST(GroundReach, KeepsTheFootOfAHouseWhoseRoofIsTheOnlyGround) {

@@ -35,7 +35,7 @@ void printRow(const std::filesystem::path& file) {
               file.stem().c_str(),
               loaded.triangles + loaded.droppedDegenerate + loaded.droppedDuplicate, walls.walls,
               walls.droppedFlat, degenerate, duplicate, walls.droppedRetriangulated,
-              walls.droppedOverhead, walls.droppedBuried, walls.withoutGround,
+              walls.droppedOverhead, walls.droppedBuried, walls.withoutGround + walls.inDoubt,
               milliseconds(middle - begin), milliseconds(end - middle));
 }
 

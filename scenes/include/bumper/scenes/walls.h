@@ -62,9 +62,10 @@ struct WallReport {
   std::size_t droppedScenery = 0;         ///< steep, but WallSelection::scenery
   std::size_t droppedDuplicate = 0;       ///< the corners of a wall before, either winding
   std::size_t droppedRetriangulated = 0;  ///< a plane quad cut along its other diagonal
-  std::size_t droppedOverhead = 0;        ///< above what a vehicle on the ground nearby reaches
-  std::size_t droppedBuried = 0;          ///< its whole surface lies below that
+  std::size_t droppedOverhead = 0;        ///< above what a vehicle on the ground below reaches
+  std::size_t droppedBuried = 0;          ///< the same, and below the ground above it
   std::size_t withoutGround = 0;          ///< walls kept because there is no ground nearby
+  std::size_t inDoubt = 0;  ///< walls kept out of reach of the ground nearby: there may be other
   std::size_t memory = 0;   ///< bytes that the walls take: here, or with their trees in ODE
   double lowestFoot = 0.0;  ///< m; 0 without walls
   double highestTop = 0.0;  ///< m; 0 without walls
