@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "ground_probes.h"
@@ -17,6 +18,10 @@ constexpr double around = 1.5;
 /// Places under a wall's sides are no further apart than this, m, and no more than so many.
 constexpr double spacing = 2.0;
 constexpr int mostPlaces = 64;
+
+/// The ground under all places of a cell of this size, m, is looked for once.
+constexpr double cellSize = 0.25;
+constexpr double nowhere = std::numeric_limits<double>::infinity();
 
 /// Narrow pieces carry a vehicle where they cover so large a part of a disc of this radius, m, with
 /// steps no higher than this, m. Planks with joints as wide as themselves do, a beam of 0.7 m does
@@ -68,7 +73,7 @@ GroundBelow::GroundBelow(const Scene& scene, const std::vector<FlatTriangle>& fl
     boxes.push_back(box);
   }
   tree_.emplace(boxes);
-  visits_ = maxVisits * (surfaces_.size() + walls.size());
+  visits_ = maxVisits * (surfaces_.size() + 4 * walls.size());
 }
 
 template <typename Visit>
@@ -85,14 +90,25 @@ bool GroundBelow::isProvenFor(const Wall& wall) {
   return isSurrounded(wall) && !hasNarrowGround(wall) && visits_ > 0;
 }
 
-// Whether wide ground lies under a place, below a height.
+// Whether wide ground lies under a place, below a height; as under the middle of its cell.
 bool GroundBelow::isCovered(const Vector2& place, double height) {
-  bool covered = false;
-  forSurfaces(column(place, -1e30, height), 0.0, [&](const Surface& surface) {
-    covered = covered || (surface.wide && covers(surface.corners, place) &&
-                          heightAt(surface.corners, place) < height);
-  });
-  return covered;
+  const auto cell = [](double coordinate) {
+    return static_cast<std::int64_t>(std::floor(coordinate / cellSize));
+  };
+  const std::int64_t x = cell(place.x());
+  const std::int64_t y = cell(place.y());
+  const auto [known, isNew] = lowest_.try_emplace({x, y}, nowhere);
+  if (isNew) {
+    const Vector2 middle(cellSize * (static_cast<double>(x) + 0.5),
+                         cellSize * (static_cast<double>(y) + 0.5));
+    double& lowest = known->second;
+    forSurfaces(column(middle, -1e30, 1e30), 0.0, [&](const Surface& surface) {
+      if (surface.wide && covers(surface.corners, middle)) {
+        lowest = std::min(lowest, heightAt(surface.corners, middle));
+      }
+    });
+  }
+  return known->second < height;
 }
 
 bool GroundBelow::isSurrounded(const Wall& wall) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "box_tree.h"
@@ -41,6 +43,7 @@ class GroundBelow {
   GroundReach reach_;
   std::vector<Surface> surfaces_;
   std::optional<BoxTree> tree_;
+  std::map<std::pair<std::int64_t, std::int64_t>, double> lowest_;  // by cell: wide ground, m
   std::size_t visits_ = 0;
 };
 

@@ -11,6 +11,7 @@
 #include "bumper/response/error.h"
 #include "ground_below.h"
 #include "ground_levels.h"
+#include "leaning_walls.h"
 #include "repeated_walls.h"
 #include "triangle.h"
 #include "wall_extents.h"
@@ -39,10 +40,11 @@ void validate(const WallSelection& selection) {
 // Room for rounding, so that at 0 what was built to be vertical is.
 double steepestGround(const WallSelection& selection) { return selection.maxNormalUp + 1e-9; }
 
-/// The triangles that stand steep enough, duplicates among them.
+/// The triangles that stand steep enough to be walls by themselves or as a part of one, duplicates
+/// among them.
 std::vector<Wall> steepTriangles(const Scene& scene, const WallSelection& selection,
                                  WallReport& report) {
-  const double limit = steepestGround(selection);
+  const double limit = std::max(steepestGround(selection), flattest);
   const std::vector<bool> scenery = matchingMeshes(scene, std::string(selection.scenery));
   std::vector<Wall> steep;
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
@@ -82,6 +84,21 @@ std::vector<Corners> weldedCorners(const std::vector<Wall>& walls) {
   return corners;
 }
 
+/// Leaves out what is too flat for a wall, by itself and as a part of one.
+void dropFlat(const Scene& scene, const WallSelection& selection, Walls& walls,
+              std::vector<Corners>& corners) {
+  const std::vector<bool> stays = areWalls(scene, walls.walls, corners, steepestGround(selection));
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < stays.size(); ++i) {
+    if (!stays[i]) continue;
+    walls.walls[kept] = walls.walls[i];
+    corners[kept++] = corners[i];
+  }
+  walls.report.droppedFlat += stays.size() - kept;
+  walls.walls.resize(kept);
+  corners.resize(kept);
+}
+
 void describe(Walls& walls) {
   WallReport& report = walls.report;
   walls.walls.shrink_to_fit();
@@ -115,6 +132,7 @@ Walls selectWalls(const Scene& scene, const WallSelection& selection) {
   Walls result;
   result.walls = steepTriangles(scene, selection, result.report);
   std::vector<Corners> corners = weldedCorners(result.walls);
+  dropFlat(scene, selection, result, corners);
   if (selection.dropRepeated) dropRepeated(result.walls, corners, result.report);
   findWallExtents(result.walls, corners);
   describe(result);
