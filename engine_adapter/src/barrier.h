@@ -50,6 +50,8 @@ class Barrier {
   [[nodiscard]] bool mayComeWithin(const Eigen::Vector3d& place, double radius) const;
   /// How far the walls lean from the vertical at most: m aside for each m up.
   [[nodiscard]] double lean() const;
+  /// The same of small and slender faces, m, whatever their height in the band.
+  [[nodiscard]] double aside() const { return mesh_ ? mesh_->aside() : 0.0; }
 
   [[nodiscard]] int wallCount() const;
   /// Of the walls that make one face with a wall the one at a point, m.

@@ -22,6 +22,11 @@ void collectTriangles(dGeomID mesh, dGeomID /*box*/, const int* triangles, int c
 // Memory of ODE's tree for each triangle but one, bytes: a box in single precision, two pointers.
 constexpr std::size_t treeNodeSize = 6 * sizeof(float) + 2 * sizeof(void*);
 
+// Faces that lean by more than the usual limit, m aside for each m up, and are no larger than this,
+// m, are taken as a whole: a barrier with spheres on it would count as one that leans.
+constexpr double usualLean = 0.32;
+constexpr double smallFace = 0.5;
+
 // Only the list of triangles is needed; no contacts are generated.
 int noContact(dGeomID /*mesh*/, dGeomID /*box*/, int /*triangle*/) { return 0; }
 
@@ -136,7 +141,26 @@ void BarrierMesh::keepWalls(const Scene& scene, const Walls& selected) {
     }
     highestFoot_ = std::max(highestFoot_, wall.foot);
     lowestTop_ = std::min(lowestTop_, wall.top);
-    lean_ = std::max(lean_, std::abs(wall.normal.z()) / wall.normal.head<2>().norm());
+  }
+  findLean(selected.walls);
+}
+
+// The line of a face is within the face's own width, and within what its lean makes of the band.
+void BarrierMesh::findLean(const std::vector<Wall>& walls) {
+  for (std::size_t i = 0; i < walls.size(); ++i) {
+    const Eigen::Vector3d& normal = walls[i].normal;
+    const double lean = std::abs(normal.z()) / normal.head<2>().norm();
+    if (lean <= lean_) continue;
+    if (lean > usualLean) {
+      const WallFace face = walls_.face(walls_.faceOf(i));
+      const std::optional<Strip> strip = stripOf(face);
+      const double width = strip ? strip->width : face.diameter();
+      if (strip || width < smallFace) {
+        aside_ = std::max(aside_, width);
+        continue;
+      }
+    }
+    lean_ = lean;
   }
 }
 

@@ -20,10 +20,51 @@ struct Range {
   }
 };
 
+// The yaw plane of a vehicle that pitches cuts the plane of a leaning strip along another line than
+// the strip itself, and over the band's height far before it. So what counts is the strip's outline
+// in the band, and its own direction.
+std::optional<Segment> cutStrip(const WallFace& face, const Strip& strip, const VehicleState& state,
+                                const Envelope& vehicle) {
+  const Vector2 direction = (state.axes.transpose() * strip.direction).head<2>();
+  const Vector2 facing = (state.axes.transpose() * face.normal()).head<2>();
+  const double planar = direction.norm();
+  if (planar < minPlanarNormal) return std::nullopt;
+  Segment segment;
+  segment.normal = turnedLeft(direction) / planar;
+  if (segment.normal.dot(facing) < 0.0) segment.normal = -segment.normal;
+  const Vector2 tangent = turnedLeft(segment.normal);
+
+  Range place;
+  Range away;
+  const auto include = [&](const Eigen::Vector3d& point) {
+    place.include(tangent.dot(point.head<2>()));
+    away.include(segment.normal.dot(point.head<2>()));
+  };
+  const std::span<const Eigen::Vector3d> corners = face.corners();
+  Eigen::Vector3d last = state.axes.transpose() * (corners.back() - state.massCentre);
+  for (const Eigen::Vector3d& each : corners) {
+    const Eigen::Vector3d corner = state.axes.transpose() * (each - state.massCentre);
+    if (vehicle.low() <= corner.z() && corner.z() <= vehicle.high()) include(corner);
+    for (const double limit : {vehicle.low(), vehicle.high()}) {
+      if ((last.z() < limit) == (corner.z() < limit)) continue;
+      include(last + (limit - last.z()) / (corner.z() - last.z()) * (corner - last));
+    }
+    last = corner;
+  }
+  if (!(place.low < place.high)) return std::nullopt;
+  const Vector2 foot = (away.high <= 0.0 ? away.high : away.low) * segment.normal;
+  segment.start = foot + place.low * tangent;
+  segment.end = foot + place.high * tangent;
+  return segment;
+}
+
 }  // namespace
 
 std::optional<Segment> cutFace(const WallFace& face, const VehicleState& state,
                                const Envelope& vehicle) {
+  if (const std::optional<Strip> strip = stripOf(face)) {
+    return cutStrip(face, *strip, state, vehicle);
+  }
   const Eigen::Vector3d normal = state.axes.transpose() * face.normal();
   const double planar = normal.head<2>().norm();
   if (planar < minPlanarNormal) return std::nullopt;

@@ -11,6 +11,13 @@ namespace {
 // Corners this close are the same, and lie in one plane or line, m.
 constexpr double tolerance = 1e-9;
 
+// Faces up to here are steep: |vertical component of the normal|, just above the usual limit.
+constexpr double steepNormal = 0.301;
+
+// A strip is so many times as long as it is wide, and rises by no more than this for each metre.
+constexpr double leastSlenderness = 2.0;
+constexpr double mostSlope = 0.35;
+
 bool areSame(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return (a - b).squaredNorm() <= tolerance * tolerance;
 }
@@ -76,6 +83,35 @@ bool WallFace::addCorner(const Eigen::Vector3d& corner, std::size_t side) {
   corners_ = kept;
   count_ = count;
   return true;
+}
+
+double WallFace::diameter() const {
+  double most = 0.0;
+  for (const Eigen::Vector3d& a : corners()) {
+    for (const Eigen::Vector3d& b : corners()) most = std::max(most, (a - b).norm());
+  }
+  return most;
+}
+
+std::optional<Strip> stripOf(const WallFace& face) {
+  if (std::abs(face.normal().z()) <= steepNormal) return std::nullopt;
+  const std::span<const Eigen::Vector3d> corners = face.corners();
+  Eigen::Vector3d side = Eigen::Vector3d::Zero();
+  std::size_t begin = 0;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Eigen::Vector3d each = corners[(k + 1) % corners.size()] - corners[k];
+    if (each.squaredNorm() <= side.squaredNorm()) continue;
+    side = each;
+    begin = k;
+  }
+  Strip strip{.direction = side.normalized(), .width = 0.0};
+  for (const Eigen::Vector3d& corner : corners) {
+    strip.width = std::max(strip.width, (corner - corners[begin]).cross(strip.direction).norm());
+  }
+  if (std::abs(strip.direction.z()) > mostSlope || side.norm() < leastSlenderness * strip.width) {
+    return std::nullopt;
+  }
+  return strip;
 }
 
 }  // namespace bumper

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "bumper/scenes/walls.h"
@@ -29,6 +30,9 @@ class WallFace {
   /// Unit; of the first wall.
   [[nodiscard]] const Eigen::Vector3d& normal() const { return normal_; }
 
+  /// The greatest distance between two corners, m.
+  [[nodiscard]] double diameter() const;
+
   static constexpr std::size_t mostCorners = 8;
 
  private:
@@ -41,5 +45,15 @@ class WallFace {
   double start_ = 0.0;                               // of the polygon, along that
   double end_ = 0.0;
 };
+
+/// A face that leans and is much longer than wide, along a direction that is nearly level: a side
+/// of a rail.
+struct Strip {
+  Eigen::Vector3d direction;  ///< unit
+  double width;               ///< m
+};
+
+/// Nothing for a face that is steep, as most walls are, or not of that shape.
+std::optional<Strip> stripOf(const WallFace& face);
 
 }  // namespace bumper

@@ -23,13 +23,13 @@ constexpr int mostTriangles = 64;
 /// Parts that lean by less than 3° overhang nothing.
 constexpr double leastOverhang = 0.05;
 
-/// Least height for each metre of depth of what folds: more than the steepest ramp has.
-constexpr double steepFold = 0.8;
+/// Least height of a profile for each metre of its depth: more than the steepest ramp has.
+constexpr double steepProfile = 0.8;
 
-/// The same for what does not fold, with room for the rounding of single precision at 45°; and how
-/// high it must rise, m, as high as the band begins.
-constexpr double steepSlope = 0.99;
+/// What does not fold must rise by more than this, m, as high as the band begins, and be no flatter
+/// than 45° itself, with room for the rounding of single precision.
 constexpr double leastRise = 0.3;
+constexpr double mostNormalUp = 0.708;
 
 /// What reaches no higher than this, m, above the lowest point of a profile with upright parts is
 /// the foot of these.
@@ -58,12 +58,10 @@ struct Profile {
   }
   [[nodiscard]] double rise() const { return high - low; }
   [[nodiscard]] double run() const { return far - near; }
-  [[nodiscard]] bool folds() const { return ends && up && down && rise() >= steepFold * run(); }
-  /// `top` is the upper end, above the section's middle, of the part that is judged.
-  [[nodiscard]] bool isSteep(double top) const {
-    return ends && rise() >= leastRise && rise() >= steepSlope * run() &&
-           !(upright && top <= low + highestFoot);
-  }
+  [[nodiscard]] bool isSteep() const { return ends && rise() >= steepProfile * run(); }
+  [[nodiscard]] bool folds() const { return up && down; }
+  /// Whether a part with its upper end at `top`, above the section's middle, is the foot of others.
+  [[nodiscard]] bool hasFoot(double top) const { return upright && top <= low + highestFoot; }
 };
 
 class Profiler {
@@ -238,12 +236,14 @@ std::vector<bool> areWalls(const Scene& scene, const std::vector<Wall>& surfaces
   for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
     if (!leans(surfaces[i])) continue;
     const Profile profile = profiler.through(i);
-    result[i] = profile.folds();
-    const Eigen::AlignedBox3d box = boxOf(surfaces[i].corners);
-    const double middle =
-        (surfaces[i].corners[0].z() + surfaces[i].corners[1].z() + surfaces[i].corners[2].z()) /
-        3.0;
-    if (result[i] || !profile.isSteep(box.max().z() - middle)) continue;
+    result[i] = profile.isSteep() && profile.folds();
+    if (result[i] || !profile.isSteep() || profile.rise() < leastRise ||
+        std::abs(surfaces[i].normal.z()) > mostNormalUp) {
+      continue;
+    }
+    const TriangleCorners& triangle = surfaces[i].corners;
+    const double middle = (triangle[0].z() + triangle[1].z() + triangle[2].z()) / 3.0;
+    if (profile.hasFoot(boxOf(triangle).max().z() - middle)) continue;
     if (!ground) ground.emplace(scene);
     result[i] = !ground->isGround(surfaces[i].triangle);
   }
