@@ -1,15 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "box_tree.h"
 #include "bumper/response/planar_motion.h"
 #include "bumper/scenes/walls.h"
 #include "ground_levels.h"
+#include "plan_grid.h"
 #include "triangle.h"
 
 namespace bumper {
@@ -27,23 +26,19 @@ class GroundBelow {
   [[nodiscard]] bool isProvenFor(const Wall& wall);
 
  private:
-  struct Surface {
-    TriangleCorners corners;
-    bool wide;
-    std::optional<bool> carries;  ///< narrow, but together with its neighbours; empty: unknown
-  };
-
   [[nodiscard]] bool isCovered(const Vector2& place, double height);
   [[nodiscard]] bool isSurrounded(const Wall& wall);
-  [[nodiscard]] bool hasNarrowGround(const Wall& wall);
-  [[nodiscard]] bool carries(Surface& surface);
+  [[nodiscard]] bool carries(const TriangleCorners& narrow, const BoxTree& narrowTree,
+                             const std::vector<TriangleCorners>& others);
   template <typename Visit>
-  void forSurfaces(const Eigen::AlignedBox3d& box, double distance, const Visit& visit);
+  void search(const BoxTree& tree, const Eigen::AlignedBox3d& box, double distance,
+              const Visit& visit);
 
   GroundReach reach_;
-  std::vector<Surface> surfaces_;
-  std::optional<BoxTree> tree_;
-  std::map<std::pair<std::int64_t, std::int64_t>, double> lowest_;  // by cell: wide ground, m
+  std::vector<TriangleCorners> wide_;
+  std::optional<BoxTree> wideTree_;
+  std::optional<BoxTree> carrierTree_;  // of narrow pieces that carry a vehicle
+  PlanGrid<double> lowest_{0.5};        // wide ground under the middle of a cell, m
   std::size_t visits_ = 0;
 };
 
