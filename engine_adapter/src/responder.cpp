@@ -44,6 +44,22 @@ void validateSettings(const ResponseSettings& settings, const ResponderOptions& 
   }
 }
 
+// Of a barrier where more than this part of what may be a wall was dropped on a guess.
+constexpr double muchOnGuess = 0.1;
+
+void warnOfGuesses(Warnings& warnings, const Barrier& barrier) {
+  const WallReport& report = barrier.report();
+  if (static_cast<double>(report.droppedOnGuess) <=
+      muchOnGuess * static_cast<double>(report.walls)) {
+    return;
+  }
+  warnings.add(&barrier,
+               "barrier '" + barrier.name() + "': " + std::to_string(report.droppedOnGuess) +
+                   " triangles steeper than 45° are taken for hillsides, beside " +
+                   std::to_string(report.walls) +
+                   " walls: if vehicles are to hit them, raise WallSelection::maxNormalUp to 0.7");
+}
+
 template <typename... Source>
 std::unique_ptr<Barrier> makeBarrier(const Responder::Implementation& responder, BarrierId id,
                                      const BarrierOptions& options, std::string name,
@@ -66,6 +82,7 @@ BarrierId add(Responder::Implementation& responder, const BarrierOptions& option
   responder.longestPenetrationTime =
       std::max(responder.longestPenetrationTime, barrier->longestPenetrationTime());
   responder.barrierOfGeom.insert_or_assign(barrier->geom(), barrier.get());
+  warnOfGuesses(responder.warnings, *barrier);
   responder.barriers.push_back(std::move(barrier));
   responder.forgetSurroundings();
   return id;
@@ -97,6 +114,8 @@ void update(Responder::Implementation& responder, const Barrier& old, const Barr
     }
   }
   forgetGeom(responder, old);
+  responder.warnings.drop(&old);
+  warnOfGuesses(responder.warnings, *fresh);
   responder.barrierOfGeom.insert_or_assign(fresh->geom(), fresh.get());
   responder.barriers[static_cast<std::size_t>(old.id().value)] = std::move(fresh);
   responder.forgetSurroundings();

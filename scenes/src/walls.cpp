@@ -37,6 +37,9 @@ void validate(const WallSelection& selection) {
   require("below", selection.groundReach->below);
 }
 
+/// |vertical component of the normal| at 45°: what is steeper carries no vehicle.
+constexpr double drivable = 0.707;
+
 // Room for rounding, so that at 0 what was built to be vertical is.
 double steepestGround(const WallSelection& selection) { return selection.maxNormalUp + 1e-9; }
 
@@ -90,7 +93,10 @@ void dropFlat(const Scene& scene, const WallSelection& selection, Walls& walls,
   const std::vector<bool> stays = areWalls(scene, walls.walls, corners, steepestGround(selection));
   std::size_t kept = 0;
   for (std::size_t i = 0; i < stays.size(); ++i) {
-    if (!stays[i]) continue;
+    if (!stays[i]) {
+      walls.report.droppedOnGuess += std::abs(walls.walls[i].normal.z()) < drivable ? 1 : 0;
+      continue;
+    }
     walls.walls[kept] = walls.walls[i];
     corners[kept++] = corners[i];
   }

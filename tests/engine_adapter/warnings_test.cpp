@@ -7,6 +7,7 @@
 #include "bumper/engine_adapter/responder.h"
 #include "hinge2_car.h"
 #include "ode_world.h"
+#include "roadside.h"
 
 namespace bumper::tests {
 namespace {
@@ -138,6 +139,26 @@ TEST(Warnings, GravityThatSaysUpIsElsewhere) {
   add(one);
   EXPECT_EQ(responder.warnings().size(), 1U);
   responder.removeVehicle(second);
+}
+
+// A wall beside a hill that no vehicle climbs.
+TEST(Warnings, ManySteepTrianglesThatAreNoWalls) {
+  Roadside road;
+  road.addRail(0.0, 0.0, -15.0, 15.0);
+  for (int i = 0; i < 4; ++i) {
+    const double x = 10.0 * i;
+    road.addQuad(Roadside::ground, {x, 20, 0}, {x + 10, 20, 0}, {x + 10, 30, 17}, {x, 30, 17});
+  }
+  OdeWorld ode;
+  Responder responder(ode.world);
+  const BarrierId barrier = responder.addBarrier(road.scene, {.space = ode.space, .name = "hill"});
+  EXPECT_EQ(responder.report(barrier).droppedOnGuess, 8U);
+  EXPECT_THAT(responder.warnings(),
+              ElementsAre(AllOf(HasSubstr("'hill'"), HasSubstr("8 triangles steeper than 45°"))));
+  Roadside flat;
+  flat.addRail(0.0, 0.0, -15.0, 15.0);
+  responder.updateBarrier(barrier, flat.scene);
+  EXPECT_THAT(responder.warnings(), IsEmpty());
 }
 
 }  // namespace

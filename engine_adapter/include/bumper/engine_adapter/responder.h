@@ -184,7 +184,9 @@ class Responder {
   /// impulse: damping, speed limits, jointed bodies that are not linked. What lets a vehicle
   /// penetrate walls: geoms that project from the outline within the band by more than 1 cm, with
   /// the figure. What is inconsistent: gravity that does not point along −z, a mass centre so low
-  /// that geoms would be in the ground. Each is given once; valid until the next set-up call.
+  /// that geoms would be in the ground. What may let a vehicle through a barrier: many triangles
+  /// steeper than 45° that were taken for hillsides (WallReport::droppedOnGuess). Each is given
+  /// once; valid until the next set-up call.
   [[nodiscard]] std::span<const std::string> warnings() const;
 
   struct Implementation;  ///< in the library's own sources

@@ -35,8 +35,10 @@ struct GroundReach {
 
 /// What makes a triangle a wall. Each reduction can be switched off by itself.
 struct WallSelection {
-  /// |vertical component of the unit normal| up to which a triangle is a wall; [0, 1]. 0.3 keeps
-  /// what leans by less than 17° from the vertical, 1 keeps all.
+  /// |vertical component of the unit normal| up to which a triangle is a wall by itself; [0, 1].
+  /// 0.3 keeps what leans by less than 17° from the vertical, 1 keeps all. What leans further, by
+  /// up to 64°, is judged by the surface that it is part of: a rail of tube, a zigzag beam, a
+  /// leaning post, a hedge are walls, a hillside and a ramp are none.
   double maxNormalUp = 0.3;
 
   /// Meshes that no vehicle hits, such as pictures of trees: a pattern for matchingMeshes(); empty:
@@ -47,10 +49,11 @@ struct WallSelection {
   /// plane quad that is there already.
   bool dropRepeated = true;
 
-  /// Drops walls above and below all that a vehicle on the scene's own ground can reach; empty:
-  /// keeps them, for vehicles that drive on ground which is not in this scene as well. Ground is
-  /// what is no wall by its slope, unless it is narrower than a metre: a beam, the top of a wall.
-  /// A wall without any ground in reach horizontally is kept.
+  /// Drops walls above all that a vehicle on the scene's own ground can reach; empty: keeps them,
+  /// for vehicles that drive on ground which is not in this scene as well. Ground is what is no
+  /// wall by its slope and wide enough for a vehicle, by itself or together with pieces next to it.
+  /// A wall is dropped only if ground lies under all of it and around it, and none is in reach:
+  /// what has ground only above it, or beside it, is kept.
   std::optional<GroundReach> groundReach = GroundReach{};
 };
 
@@ -64,7 +67,10 @@ struct WallReport {
   std::size_t droppedRetriangulated = 0;  ///< a plane quad cut along its other diagonal
   std::size_t droppedOverhead = 0;        ///< above what a vehicle on the ground below reaches
   std::size_t droppedBuried = 0;          ///< the same, and below the ground above it
-  std::size_t withoutGround = 0;          ///< walls kept because there is no ground nearby
+  /// Of droppedFlat what is steeper than 45°, where no vehicle drives: taken for hillsides, or for
+  /// the foot of a wall.
+  std::size_t droppedOnGuess = 0;
+  std::size_t withoutGround = 0;  ///< walls kept because there is no ground nearby
   std::size_t inDoubt = 0;  ///< walls kept out of reach of the ground nearby: there may be other
   std::size_t memory = 0;   ///< bytes that the walls take: here, or with their trees in ODE
   double lowestFoot = 0.0;  ///< m; 0 without walls
