@@ -33,16 +33,20 @@ constexpr double discRadius = 0.7;
 constexpr double leastShare = 0.4;
 constexpr double mostStep = 0.3;
 
-constexpr int directions = 8;
-
-Vector2 towards(int direction) {
-  const double angle = 2.0 * std::numbers::pi * direction / directions;
-  return {std::cos(angle), std::sin(angle)};
-}
+constexpr double diagonal = 0.5 * std::numbers::sqrt2;
+const std::array<Vector2, 8> directions{Vector2(1.0, 0.0),  Vector2(diagonal, diagonal),
+                                        Vector2(0.0, 1.0),  Vector2(-diagonal, diagonal),
+                                        Vector2(-1.0, 0.0), Vector2(-diagonal, -diagonal),
+                                        Vector2(0.0, -1.0), Vector2(diagonal, -diagonal)};
 
 double heightAt(const TriangleCorners& triangle, const Vector2& place) {
-  const Eigen::Vector3d normal = upwardNormal(triangle);
+  const Eigen::Vector3d normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
   return heightOfPlane(triangle[0], normal, place);
+}
+
+double planArea(const TriangleCorners& triangle) {
+  return 0.5 * std::abs(cross((triangle[1] - triangle[0]).head<2>(),
+                              (triangle[2] - triangle[0]).head<2>()));
 }
 
 Eigen::AlignedBox3d column(const Vector2& place, double low, double high) {
@@ -168,10 +172,9 @@ bool GroundBelow::isSurrounded(const Wall& wall) {
   const double lowest = box.min().z();
   const auto isSurroundedAt = [&](const Vector2& place) {
     if (!isCovered(place, lowest)) return false;
-    for (int direction = 0; direction < directions; ++direction) {
-      if (!isCovered(place + around * towards(direction), lowest)) return false;
-    }
-    return true;
+    return std::all_of(directions.begin(), directions.end(), [&](const Vector2& direction) {
+      return isCovered(place + around * direction, lowest);
+    });
   };
   if (box.diagonal().head<2>().norm() < small) return isSurroundedAt(box.center().head<2>());
   for (std::size_t k = 0; k < 3; ++k) {
@@ -195,17 +198,20 @@ bool GroundBelow::carries(const TriangleCorners& narrow, const BoxTree& narrowTr
   std::vector<const TriangleCorners*> near;
   search(narrowTree, here, discRadius, [&](std::uint32_t i) { near.push_back(&others[i]); });
   search(*wideTree_, here, discRadius, [&](std::uint32_t i) { near.push_back(&wide_[i]); });
+  double area = 0.0;
+  for (const TriangleCorners* each : near) area += planArea(*each);
+  if (area < leastShare * std::numbers::pi * discRadius * discRadius) return visits_ == 0;
   int covered = 0;
   for (const double radius : {0.5 * discRadius, discRadius}) {
-    for (int direction = 0; direction < directions; ++direction) {
-      const Vector2 place = middle + radius * towards(direction);
+    for (const Vector2& direction : directions) {
+      const Vector2 place = middle + radius * direction;
       const bool isHere = std::any_of(near.begin(), near.end(), [&](const TriangleCorners* each) {
         return covers(*each, place);
       });
       covered += isHere ? 1 : 0;
     }
   }
-  return covered >= leastShare * 2 * directions || visits_ == 0;
+  return covered >= leastShare * 2.0 * static_cast<double>(directions.size()) || visits_ == 0;
 }
 
 }  // namespace bumper
