@@ -48,10 +48,9 @@ class Barrier {
   [[nodiscard]] double freeUntil(const PlanStrip& strip, double z, double height) const;
   /// False: certainly no wall comes within `radius` of a place, m.
   [[nodiscard]] bool mayComeWithin(const Eigen::Vector3d& place, double radius) const;
-  /// How far the walls lean from the vertical at most: m aside for each m up.
+  /// How far walls that freeUntil() takes as they are lean from the vertical at most: m aside for
+  /// each m up.
   [[nodiscard]] double lean() const;
-  /// The same of small and slender faces, m, whatever their height in the band.
-  [[nodiscard]] double aside() const { return mesh_ ? mesh_->aside() : 0.0; }
 
   [[nodiscard]] int wallCount() const;
   /// Of the walls that make one face with a wall the one at a point, m.

@@ -1,5 +1,6 @@
 #include "barrier_mesh.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,9 +24,34 @@ void collectTriangles(dGeomID mesh, dGeomID /*box*/, const int* triangles, int c
 constexpr std::size_t treeNodeSize = 6 * sizeof(float) + 2 * sizeof(void*);
 
 // Faces that lean by more than the usual limit, m aside for each m up, and are no larger than this,
-// m, are taken as a whole: a barrier with spheres on it would count as one that leans.
+// m, are taken one by one: else a barrier would lean everywhere as its flattest face does.
 constexpr double usualLean = 0.32;
-constexpr double smallFace = 0.5;
+constexpr double largestFace = 4.0;
+
+// A rectangle in plan around a wall, larger by `more` on all sides, as two walls.
+std::pair<Wall, Wall> halvesAround(const Wall& wall, double more) {
+  Eigen::Vector2d side = Eigen::Vector2d::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector2d each = (wall.corners[(k + 1) % 3] - wall.corners[k]).head<2>();
+    if (each.squaredNorm() > side.squaredNorm()) side = each;
+  }
+  const Eigen::Vector2d along = side.normalized();
+  const Eigen::Vector2d across(-along.y(), along.x());
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector3d& corner : wall.corners) {
+    box.extend(Eigen::Vector2d(along.dot(corner.head<2>()), across.dot(corner.head<2>())));
+  }
+  const auto corner = [&](bool end, bool left) {
+    const double x = end ? box.max().x() + more : box.min().x() - more;
+    const double y = left ? box.max().y() + more : box.min().y() - more;
+    const Eigen::Vector2d place = x * along + y * across;
+    return Eigen::Vector3d(place.x(), place.y(), wall.corners[0].z());
+  };
+  std::pair<Wall, Wall> halves{wall, wall};
+  halves.first.corners = {corner(false, false), corner(true, false), corner(true, true)};
+  halves.second.corners = {corner(false, false), corner(true, true), corner(false, true)};
+  return halves;
+}
 
 // Only the list of triangles is needed; no contacts are generated.
 int noContact(dGeomID /*mesh*/, dGeomID /*box*/, int /*triangle*/) { return 0; }
@@ -127,7 +153,6 @@ void BarrierMesh::keepWalls(const Scene& scene, const Walls& selected) {
                 "dropped for another reason that WallSelection gives");
   }
   walls_ = WallTable(selected.walls, scene);
-  plan_ = WallPlan(selected.walls);
   report_ = selected.report;
   for (const SceneMesh& mesh : scene.meshes) materials_.push_back(mesh.material);
   low_.setConstant(std::numeric_limits<double>::infinity());
@@ -142,26 +167,32 @@ void BarrierMesh::keepWalls(const Scene& scene, const Walls& selected) {
     highestFoot_ = std::max(highestFoot_, wall.foot);
     lowestTop_ = std::min(lowestTop_, wall.top);
   }
-  findLean(selected.walls);
+  makePlan(selected.walls);
 }
 
-// The line of a face is within the face's own width, and within what its lean makes of the band.
-void BarrierMesh::findLean(const std::vector<Wall>& walls) {
-  for (std::size_t i = 0; i < walls.size(); ++i) {
+// The line of a face that leans is within the face's own width of it: its footprint is made so much
+// larger.
+void BarrierMesh::makePlan(std::vector<Wall> walls) {
+  const std::size_t count = walls.size();
+  for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector3d& normal = walls[i].normal;
     const double lean = std::abs(normal.z()) / normal.head<2>().norm();
-    if (lean <= lean_) continue;
-    if (lean > usualLean) {
-      const WallFace face = walls_.face(walls_.faceOf(i));
-      const std::optional<Strip> strip = stripOf(face);
-      const double width = strip ? strip->width : face.diameter();
-      if (strip || width < smallFace) {
-        aside_ = std::max(aside_, width);
-        continue;
-      }
+    if (lean <= std::max(lean_, usualLean)) {
+      lean_ = std::max(lean_, lean);
+      continue;
     }
-    lean_ = lean;
+    const WallFace face = walls_.face(walls_.faceOf(i));
+    const std::optional<Strip> strip = stripOf(face);
+    const double width = strip ? strip->width : face.diameter();
+    if (width > largestFace) {
+      lean_ = lean;
+      continue;
+    }
+    const auto [first, second] = halvesAround(walls[i], width);
+    walls[i] = first;
+    walls.push_back(second);
   }
+  plan_ = WallPlan(walls);
 }
 
 void BarrierMesh::buildMesh() {

@@ -57,12 +57,10 @@ class BarrierMesh {
   /// Whether a sphere reaches the walls' bounding box.
   [[nodiscard]] bool reaches(const Eigen::Vector3d& centre, double radius) const;
 
-  /// The walls from above.
+  /// The walls from above, those that lean far with room around them.
   [[nodiscard]] const WallPlan& plan() const { return plan_; }
-  /// How far the walls lean from the vertical at most: m aside for each m up.
+  /// How far the other walls lean from the vertical at most: m aside for each m up.
   [[nodiscard]] double lean() const { return lean_; }
-  /// The same of small and slender faces, m, whatever their height in the band.
-  [[nodiscard]] double aside() const { return aside_; }
 
   /// Fills `walls` with the indices of those that ODE's collider finds at the box. The collider
   /// works in single precision: make the box larger by margin() on every side.
@@ -88,7 +86,7 @@ class BarrierMesh {
   void keepParts(const std::vector<WallPart>& parts);
   void keepFoot(std::size_t triangle, const WallFoot& foot);
   void keepWalls(const Scene& scene, const Walls& selected);
-  void findLean(const std::vector<Wall>& walls);
+  void makePlan(std::vector<Wall> walls);
   void buildMesh();
   [[nodiscard]] std::size_t memory() const;
 
@@ -105,7 +103,6 @@ class BarrierMesh {
   double lowestTop_ = 0.0;
   double margin_ = 0.0;
   double lean_ = 0.0;
-  double aside_ = 0.0;
 
   dTriMeshDataID data_ = nullptr;
   dGeomID queryGeom_ = nullptr;  // in no space; carries our callbacks

@@ -152,7 +152,7 @@ bool FreeSpace::fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
   const double wanted = std::min(fewestSteps * h * speedNow, 0.5 * ahead);
   for (const std::unique_ptr<Barrier>& barrier : barriers) {
     if (barrier == nullptr) continue;
-    const double lean = std::max(bandHeight * leanAsSeen(barrier->lean(), tilt), barrier->aside());
+    const double lean = bandHeight * leanAsSeen(barrier->lean(), tilt);
     const PlanStrip strip{.origin = state.massCentre.head<2>(),
                           .direction = along,
                           .start = -(rear + lean + leastBehind),
