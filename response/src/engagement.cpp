@@ -25,7 +25,11 @@ double depthInside(const Outline& outline, const Placement& at, const Vector2& p
   return -separationFrom(outline, local, local).distance;
 }
 
-Engagement engagement(const Outline& outline, const Placement& at, const Segment& wall) {
+namespace {
+
+// With the distance to each side in units of its own.
+Engagement engagementIn(const std::array<double, 4>& units, const Outline& outline,
+                        const Placement& at, const Segment& wall) {
   Engagement result;
   const Vector2 start = at.local(wall.start);
   const Vector2 along = at.turnedBack(wall.end - wall.start);
@@ -34,14 +38,14 @@ Engagement engagement(const Outline& outline, const Placement& at, const Segment
   double from = 0.0;
   double to = 1.0;
   for (std::size_t i = 0; i < sides.size(); ++i) {
-    const Distance to_side{.start = sides[i].reach - sides[i].out.dot(start),
-                           .change = -sides[i].out.dot(along)};
-    distances[i] = to_side;
-    if (to_side.change > 0.0) {
-      from = std::max(from, -to_side.start / to_side.change);
-    } else if (to_side.change < 0.0) {
-      to = std::min(to, -to_side.start / to_side.change);
-    } else if (to_side.start < 0.0) {
+    const Distance toSide{.start = (sides[i].reach - sides[i].out.dot(start)) / units[i],
+                          .change = -sides[i].out.dot(along) / units[i]};
+    distances[i] = toSide;
+    if (toSide.change > 0.0) {
+      from = std::max(from, -toSide.start / toSide.change);
+    } else if (toSide.change < 0.0) {
+      to = std::min(to, -toSide.start / toSide.change);
+    } else if (toSide.start < 0.0) {
       return result;
     }
   }
@@ -76,7 +80,7 @@ Engagement engagement(const Outline& outline, const Placement& at, const Segment
     }
     const double first = std::max(distances[nearest].at(share), 0.0);
     const double last = std::max(distances[nearest].at(until), 0.0);
-    push -= 0.5 * (until - share) * length * (first + last) * sides[nearest].out;
+    push -= 0.5 * (until - share) * length * (first + last) / units[nearest] * sides[nearest].out;
     result.depth = std::max({result.depth, first, last});
     if (next == nearest) break;
     share = until;
@@ -84,6 +88,23 @@ Engagement engagement(const Outline& outline, const Placement& at, const Segment
   }
   result.push = at.turned(push);
   return result;
+}
+
+}  // namespace
+
+Engagement engagement(const Outline& outline, const Placement& at, const Segment& wall) {
+  return engagementIn({1.0, 1.0, 1.0, 1.0}, outline, at, wall);
+}
+
+Vector2 wayOut(const Outline& outline, const Placement& at, const Segment& wall) {
+  const std::array<double, 4> reaches = {outline.front, outline.rear, outline.halfWidth,
+                                         outline.halfWidth};
+  if (!wall.isPost()) return engagementIn(reaches, outline, at, wall).push;
+  // A post counts as its diameter from side to side.
+  Segment across = wall;
+  across.start = wall.start - wall.radius * at.turned({0.0, 1.0});
+  across.end = wall.start + wall.radius * at.turned({0.0, 1.0});
+  return engagementIn(reaches, outline, at, across).push;
 }
 
 }  // namespace bumper

@@ -25,6 +25,11 @@ struct Engagement {
 };
 Engagement engagement(const Outline& outline, const Placement& at, const Segment& wall);
 
+/// The same push with d relative to the distance of the side from the mass centre, 1/m: a wall
+/// through the outline pushes it to the side of its mass centre. Its direction says which way leads
+/// out of all walls that an outline stands in, when it is summed up: ½ ∫ d² ds decreases on it.
+Vector2 wayOut(const Outline& outline, const Placement& at, const Segment& wall);
+
 /// Of a point inside the outline to the nearest side, m; negative: outside.
 double depthInside(const Outline& outline, const Placement& at, const Vector2& point);
 

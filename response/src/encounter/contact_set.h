@@ -48,6 +48,9 @@ class ContactSet {
   /// Finds what the outline touches where it is now, `time` seconds into the step: within
   /// touchTolerance, along the direction of least penetration.
   void update(double time);
+  /// After an update at the start of a step: if the walls that the outline was put into lead
+  /// nowhere, all of them get one normal, the way out of all.
+  void findWayOut();
   /// The same as in the paper: overlaps, along the wall's own normal.
   void updateByFaces();
 
@@ -76,8 +79,12 @@ class ContactSet {
   [[nodiscard]] Answer answerTo(const Manifold& struck, const Approach& first) const;
 
  private:
-  template <typename OverlapOf>
-  void updateBy(const OverlapOf& overlapOf);
+  static void setOverlap(Manifold& wall, const std::optional<Overlap>& overlap);
+  void finish();
+  [[nodiscard]] bool isSideOfBody(const Segment& wall) const;
+  [[nodiscard]] std::optional<double> depthOfStanding(const Manifold& wall) const;
+  [[nodiscard]] bool standsWithoutWayOut() const;
+  void takeWayOut();
   [[nodiscard]] std::optional<Overlap> overlapWith(const Segment& wall, double time) const;
   [[nodiscard]] bool isShielded(const Overlap& end) const;
   [[nodiscard]] bool isHidden(const Manifold& wall) const;

@@ -33,10 +33,12 @@ StepOutcome Encounter::resolve(const PlanarBody& body, const Outline& outline,
 
   contacts_.update(0.0);
   if (h > 0.0) {
+    contacts_.findWayOut();
     outcome.shift.velocity = recoveryVelocity(h);
     if (!outcome.shift.velocity.isZero(0.0)) {
       motion.position += h * outcome.shift.velocity;
       contacts_.update(0.0);
+      contacts_.findWayOut();
     }
   }
 

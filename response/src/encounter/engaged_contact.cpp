@@ -147,7 +147,7 @@ EngagedContact engagedContact(const ContactSet& contacts, const Manifold& struck
   EngagedContact result{.share = std::max(chain.share(), yielding)};
   const Engagement& sum = chain.sum();
   const double push = sum.push.norm();
-  if (!(push > 0.0)) return result;
+  if (!(push > 0.0) || sum.depth <= touchTolerance) return result;
   const Vector2 middle = sum.moment / sum.length;
   result.meets = true;
   result.contact = {.point = middle, .arm = middle - engaged.pose.position};

@@ -59,7 +59,7 @@ Yielding yieldingOf(const ContactSet& contacts, const Manifold& struck, const Ve
     Vector2 top = up.dot(wall.end - wall.start) > 0.0 ? wall.end : wall.start;
     if (struck.overlap.byEnd && (atStart || atEnd)) top = atStart ? wall.start : wall.end;
     const double covered = up.dot(top) - lowest(outline, at, up);
-    if (covered <= 0.0) continue;
+    if (covered < -touchTolerance) continue;
     // Only what lies on the vehicle's side of the feature, and that the outline is not in itself.
     const Segment& before = other.segment;
     const double ahead = std::max(normal.dot(before.start - top), normal.dot(before.end - top));
@@ -69,7 +69,7 @@ Yielding yieldingOf(const ContactSet& contacts, const Manifold& struck, const Ve
     const double share =
         across * std::clamp(ahead / size, 0.0, 1.0) * std::clamp(2.0 - worst / size, 0.0, 1.0);
     if (share <= result.share || risesFrom(contacts, struck, top, up)) continue;
-    result = {.aside = std::min(covered, share * size) * up, .share = share};
+    result = {.aside = std::max(std::min(covered, share * size), 0.0) * up, .share = share};
   }
   return result;
 }
