@@ -57,7 +57,7 @@ Real distanceInside(const Polygon& polygon, const Plane& point) {
 }
 
 Polygon outlineOf(const Scene& scene, const Plane& moved = Plane::Zero()) {
-  return placed(scene.outline, scene.position.cast<Real>() + moved, scene.yaw);
+  return placed(scene.outline, scene.position.cast<Real>() + moved, static_cast<Real>(scene.yaw));
 }
 
 std::optional<Piece> pieceInside(const Scene& scene, const Polygon& polygon) {
