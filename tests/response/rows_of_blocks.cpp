@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace bumper::tests {
 namespace {
@@ -55,10 +54,51 @@ Row randomRow(Random& random, const Masonry& masonry, const RowFrame& frame) {
     block.out = random.chance(0.5) ? masonry.off : 0.0;
     block.thickness = sheets ? 0.0 : masonry.unit * random.uniform(0.1, 0.6);
     add(row, block);
-    const bool open = random.chance(0.6);
+    const bool open = !masonry.jointless && random.chance(0.6);
     x = block.to + (open ? masonry.unit * std::pow(10.0, random.uniform(-3.0, -0.53)) : 0.0);
   }
   return row;
+}
+
+Row staircase(double cell, double length, const RowFrame& frame) {
+  Row row{.frame = frame};
+  // A cell is behind the wall if its middle is; the edge runs between a cell behind and one before.
+  const int reach = static_cast<int>(length / cell);
+  const auto behind = [&](int x, int y) {
+    return frame.out().dot(cell * Vector2(x + 0.5, y + 0.5)) < 0.0;
+  };
+  for (int x = -reach; x <= reach; ++x) {
+    // Cells of this column near the line.
+    const Vector2 out = frame.out();
+    const double middle = -out.x() * (x + 0.5) / (std::abs(out.y()) > 1e-9 ? out.y() : 1e-9);
+    const double spread = std::abs(out.x() / (std::abs(out.y()) > 1e-9 ? out.y() : 1e-9)) + 3.0;
+    const int low = static_cast<int>(std::floor(std::max(middle - spread, -1.0 * reach)));
+    const int high = static_cast<int>(std::ceil(std::min(middle + spread, 1.0 * reach)));
+    for (int y = low; y <= high; ++y) {
+      const Vector2 corner = frame.origin + cell * Vector2(x, y);
+      const Vector2 right = cell * Vector2::UnitX(), up = cell * Vector2::UnitY();
+      if (behind(x, y) != behind(x + 1, y)) addWall(row, corner + right, corner + right + up);
+      if (behind(x, y) != behind(x, y + 1)) addWall(row, corner + up, corner + up + right);
+    }
+  }
+  std::sort(row.walls.begin(), row.walls.end(), [&](const Segment& a, const Segment& b) {
+    return frame.along.dot(a.start + a.end) < frame.along.dot(b.start + b.end);
+  });
+  row.foremost = 0.0;
+  for (const Segment& wall : row.walls) {
+    for (const Vector2& end : {wall.start, wall.end})
+      row.foremost = std::max(row.foremost, frame.out().dot(end - frame.origin));
+  }
+  return row;
+}
+
+void roundToFloat(Row& row) {
+  const auto round = [](Vector2& v) { v = v.cast<float>().cast<double>(); };
+  for (Segment& wall : row.walls) {
+    round(wall.start);
+    round(wall.end);
+    wall.normal = turnedLeft((wall.end - wall.start).normalized());
+  }
 }
 
 SlideResult slideAlong(CollisionStep& collision, const Row& row, const Slide& slide,
@@ -77,7 +117,7 @@ SlideResult slideAlong(CollisionStep& collision, const Row& row, const Slide& sl
     motion.velocity -= slide.pressing * slide.step * row.frame.out();
     // A driver, critically damped.
     constexpr double quickness = 8.0;  // 1/s
-    const double astray = std::remainder(motion.yaw - heading, 2.0 * std::numbers::pi);
+    const double astray = std::remainder(motion.yaw - heading, 2.0 * 3.14159265358979323846);
     motion.yawRate -= slide.step * quickness * (quickness * astray + 2.0 * motion.yawRate);
     const double reach =
         outline.radius() +
@@ -89,10 +129,16 @@ SlideResult slideAlong(CollisionStep& collision, const Row& row, const Slide& sl
       result.hardest =
           std::max(result.hardest, each.response.impulse.linear.norm() / slide.vehicle.mass);
     }
+    result.hardestStep =
+        std::max(result.hardestStep, outcome.impulse.linear.norm() / slide.vehicle.mass);
+    result.impacts += static_cast<int>(outcome.impacts.size());
+    result.settled &= outcome.settled;
     motion = outcome.after;
     result.deepest = std::max(result.deepest, -lowest(row, outline, motion.placement()));
     result.slowest = std::min(result.slowest, motion.velocity.dot(row.frame.along));
+    result.turned = std::max(result.turned, std::abs(astray));
   }
+  result.speed = motion.velocity.dot(row.frame.along);
   return result;
 }
 

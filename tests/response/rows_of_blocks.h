@@ -31,13 +31,20 @@ struct Block {
 };
 void add(Row& row, const Block& block);
 
-/// What blocks there are: joints are closed, or open by 1 mm · unit to 30 cm · unit.
+/// What blocks there are.
 struct Masonry {
-  double unit = 1.0;    ///< a model's scale
-  double off = 0.0;     ///< each block stands in line or out by this, m
-  double length = 0.0;  ///< of the row, m
+  double unit = 1.0;       ///< a model's scale
+  double off = 0.0;        ///< each block stands in line or out by this, m
+  double length = 0.0;     ///< of the row, m
+  bool jointless = false;  ///< every joint is closed; else open up to 30 cm · unit, or closed
 };
 Row randomRow(Random& random, const Masonry& masonry, const RowFrame& frame);
+
+/// A wall at an angle to the axes, made of square cells: the edge of those that lie behind it.
+Row staircase(double cell, double length, const RowFrame& frame);
+
+/// The coordinates as single precision stores them.
+void roundToFloat(Row& row);
 
 struct Slide {
   VehicleParameters vehicle;
@@ -51,9 +58,14 @@ struct Slide {
 };
 
 struct SlideResult {
-  double hardest = 0.0;  ///< velocity change in one impact, m/s
-  double deepest = 0.0;  ///< of the outline below the foremost face, m
-  double slowest = 0.0;  ///< along the row, m/s
+  double hardest = 0.0;      ///< velocity change in one impact, m/s
+  double hardestStep = 0.0;  ///< … in one step
+  double deepest = 0.0;      ///< of the outline below the foremost face, m
+  double speed = 0.0;        ///< at the end, along the row, m/s
+  double slowest = 0.0;      ///< along the row, m/s
+  int impacts = 0;
+  bool settled = true;
+  double turned = 0.0;  ///< largest deviation from the heading, rad
 };
 
 /// The car drives along the row, is pressed against it and steered to keep its heading.
