@@ -234,14 +234,14 @@ Answer ContactSet::answerTo(const Manifold& struck, const Approach& first) const
   const bool yields = yielding.share > 0.0;
   if (struck.segment.isPost() || (penetration <= 0.0 && !yields)) return alone();
   // Back to where they touched, and on from there for the penetration time.
-  const double reached = touch.depth - moveTo(touch, place_.position, penetration);
+  double reached = touch.depth - moveTo(touch, place_.position, penetration);
+  if (yields) reached = std::min(reached, yielding.reach);
   Placement pose = place_;
   pose.position += touch.depth * touch.normal + yielding.aside;
   if (reached > 0.0) {
     pose.position += reached / first.speed * velocityAt(vehicle_.body.motion, first.contact.arm);
   }
-  const EngagedContact engaged =
-      engagedContact(*this, struck, {outline, pose, reached}, yielding.share);
+  const EngagedContact engaged = engagedContact(*this, struck, {outline, pose}, yielding.share);
   if (yields && !engaged.meets) {
     return {
         .at = {.contact = first.contact, .normal = first.normal}, .yields = true, .meets = false};

@@ -17,7 +17,6 @@ struct EngagedContact {
 struct Engaged {
   const Outline& outline;
   const Placement& pose;
-  double reached = 0.0;  ///< depth, m
 };
 
 /// The contact of a touched wall and of those that go on from its ends.

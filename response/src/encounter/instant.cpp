@@ -87,17 +87,12 @@ Instant::Next Instant::fastestStruckWall() {
   next.at.speed = restTolerance;
   for (Manifold& wall : contacts_.all()) {
     if (!wall.struck || wall.passed) continue;
-    const Approach first = contacts_.touching(wall);
-    if (wall.answered.yields) {
-      if (first.speed <= restTolerance) continue;
-      const Approach again = contacts_.answerTo(wall, first).at;
-      if (again.speed > next.at.speed) next = {.wall = &wall, .at = again};
-      continue;
-    }
-    const Approach& answered = wall.answered.at;
-    for (const Approach& point : {first, contacts_.approach(answered.contact, answered.normal)}) {
+    const auto consider = [&](const Approach& point) {
       if (point.speed > next.at.speed) next = {.wall = &wall, .at = point};
-    }
+    };
+    const Approach& answered = wall.answered.at;
+    consider(contacts_.approach(answered.contact, answered.normal));
+    if (!wall.answered.yields) consider(contacts_.touching(wall));
   }
   return next;
 }

@@ -16,6 +16,8 @@ namespace {
 constexpr double flattest = 0.8;
 constexpr double steepest = 0.95;
 
+constexpr double reachShare = 0.25;  // of the smallest feature
+
 // Of the outline along a direction, from the origin of the plane, m.
 double lowest(const Outline& outline, const Placement& at, const Vector2& up) {
   double least = std::numeric_limits<double>::infinity();
@@ -69,7 +71,9 @@ Yielding yieldingOf(const ContactSet& contacts, const Manifold& struck, const Ve
     const double share =
         across * std::clamp(ahead / size, 0.0, 1.0) * std::clamp(2.0 - worst / size, 0.0, 1.0);
     if (share <= result.share || risesFrom(contacts, struck, top, up)) continue;
-    result = {.aside = std::max(std::min(covered, share * size), 0.0) * up, .share = share};
+    result = {.aside = std::max(std::min(covered, share * size), 0.0) * up,
+              .share = share,
+              .reach = reachShare * size};
   }
   return result;
 }
