@@ -193,8 +193,9 @@ TEST_P(LeaningLong, NeitherSinksInNorJitters) {
   EXPECT_TRUE(wall.touched);
   EXPECT_GT(wall.aligned, 0.0);
   for (const double depth : wall.deepest) EXPECT_LE(depth, mostDepth);
-  constexpr double drift = 1e-4;  // m, from quarter to quarter
-  EXPECT_LE(wall.deepest[3], std::max(wall.deepest[1], 0.0) + drift);
+  // The last quarter against the first half: it may have left the wall in any of them.
+  constexpr double drift = 1e-4;  // m
+  EXPECT_LE(wall.deepest[3], std::max({wall.deepest[0], wall.deepest[1], 0.0}) + drift);
   const double settled = wall.aligned + 1.0;
   const double noise = yawNoise(wall, settled, lean.step);
   const double freeNoise = yawNoise(free, settled, lean.step);

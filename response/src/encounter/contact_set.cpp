@@ -143,12 +143,26 @@ bool ContactSet::standsWithoutWayOut() const {
   return false;
 }
 
+// Not through a wall to whose one side the mass centre is, unless two such walls oppose each other.
+Vector2 ContactSet::withoutLeadingThrough(const Vector2& way) const {
+  Vector2 kept = way;
+  for (const Manifold& wall : manifolds_) {
+    if (wall.segment.isPost() || !depthOfStanding(wall)) continue;
+    if (depthInside(vehicle_.outline, place_, wall.segment.start) > 0.0) continue;
+    if (depthInside(vehicle_.outline, place_, wall.segment.end) > 0.0) continue;
+    const Vector2 facing = normalTowards(wall.segment, place_.position);
+    kept -= std::min(kept.dot(facing), 0.0) * facing;
+  }
+  return kept.norm() > 0.1 * way.norm() ? kept : way;
+}
+
 // All walls that the outline stands in have one normal, the way out of all of them.
 void ContactSet::takeWayOut() {
   Vector2 way = Vector2::Zero();
   for (const Manifold& wall : manifolds_) {
     if (depthOfStanding(wall)) way += wayOut(vehicle_.outline, place_, wall.segment);
   }
+  way = withoutLeadingThrough(way);
   const double length = way.norm();
   way = length > 0.0 ? Vector2(way / length) : place_.turned({-1.0, 0.0});
   for (Manifold& wall : manifolds_) {

@@ -84,6 +84,7 @@ class ContactSet {
   [[nodiscard]] bool isSideOfBody(const Segment& wall) const;
   [[nodiscard]] std::optional<double> depthOfStanding(const Manifold& wall) const;
   [[nodiscard]] bool standsWithoutWayOut() const;
+  [[nodiscard]] Vector2 withoutLeadingThrough(const Vector2& way) const;
   void takeWayOut();
   [[nodiscard]] std::optional<Overlap> overlapWith(const Segment& wall, double time) const;
   [[nodiscard]] bool isShielded(const Overlap& end) const;

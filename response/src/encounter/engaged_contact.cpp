@@ -17,7 +17,7 @@ namespace {
 constexpr double wholeWeight = 0.25;
 
 constexpr std::size_t longestChain = 64;
-constexpr double sameVertex = 2e-6;  // m
+constexpr double sameVertex = 2e-4;  // m
 
 // A way along walls, which have the vehicle on one side.
 struct Way {
@@ -54,7 +54,8 @@ class Chain {
       const double facing = std::max(std::cos(way.turned), yielding_);
       if (facing <= 0.0 || way.turned > std::numbers::pi) return;
       include(*next.wall, weight * facing);
-      share_ = std::max(share_, std::min(weight * facing / wholeWeight, 1.0));
+      if (next.wall != way.touched)
+        share_ = std::max(share_, std::min(weight * facing / wholeWeight, 1.0));
       way.last = next.wall;
       way.place = next.end;
       way.along = next.along;

@@ -16,7 +16,7 @@ namespace {
 // Pieces of one wall lie in one line within these. A gap between them no wider than that is
 // bridged: no part of a vehicle fits into it.
 constexpr double crackWidth = 0.1;    // m
-constexpr double mergeOffset = 1e-6;  // m
+constexpr double mergeOffset = 1e-4;  // m
 
 Segment oriented(const Segment& wall, const Vector2& centre) {
   Segment result = wall;
