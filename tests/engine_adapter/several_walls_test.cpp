@@ -90,7 +90,6 @@ TEST(LongContact, DoesNotMuteAnotherWallOfItsBarrier) {
         EXPECT_LE(one.deepest, 0.5 * speed * contactTime);
         EXPECT_GE(one.impacts.size(), 2U);
         EXPECT_LT(one.way.back().velocity.x(), 0.5 * speed);
-        RecordProperty("deepest", std::to_string(one.deepest));
       }
     }
   }
