@@ -1,5 +1,5 @@
-// Walls that a vehicle passes through: one that broke is left out until the outline has left it; one
-// whose long force pulse runs causes no further impact until it ends.
+// Walls that a vehicle passes through: one that broke is left out until the outline has left it;
+// one whose long force pulse runs causes no further impact until it ends.
 
 #include <algorithm>
 
@@ -14,14 +14,16 @@ void Responder::Implementation::applyPassableWalls(Vehicle& vehicle) const {
     const NearbyWalls::Owner owner{.barrier = passable.barrier, .settings = passable.settings};
     const Vector2 place = (state.axes.transpose() * (passable.place - state.massCentre)).head<2>();
     const Vector2 normal = (state.axes.transpose() * passable.normal).head<2>().normalized();
+    if (passable.until > 0.0) {
+      if (!(time < passable.until)) return true;
+      // Walls that go on from one another have one contact, whichever barriers they are of.
+      nearby.enter([&](const Segment& wall) { return isOneWall(wall, place, normal); },
+                   passable.depth);
+      return false;
+    }
     const auto isOfIt = [&](const Segment& wall) {
       return nearby.ownerOf(wall) == owner && isOneWall(wall, place, normal);
     };
-    if (passable.until > 0.0) {
-      if (!(time < passable.until)) return true;
-      nearby.enter(isOfIt, passable.depth);
-      return false;
-    }
     const std::span<const Segment> walls = nearby.all().segments;
     const bool isInIt = std::any_of(walls.begin(), walls.end(), [&](const Segment& wall) {
       return isOfIt(wall) && findTouch(vehicle.envelope.outline(), {}, wall).has_value();

@@ -27,10 +27,16 @@ double depthInside(const Outline& outline, const Placement& at, const Vector2& p
 
 namespace {
 
-// With the distance to each side in units of its own.
-Engagement engagementIn(const std::array<double, 4>& units, const Outline& outline,
-                        const Placement& at, const Segment& wall) {
-  Engagement result;
+// An engagement with the distance to each side in units of its own, and its push with d for ½ d².
+struct Engagements {
+  Engagement squared;
+  Vector2 linear = Vector2::Zero();
+};
+
+Engagements engagementIn(const std::array<double, 4>& units, const Outline& outline,
+                         const Placement& at, const Segment& wall) {
+  Engagements both;
+  Engagement& result = both.squared;
   const Vector2 start = at.local(wall.start);
   const Vector2 along = at.turnedBack(wall.end - wall.start);
   const std::array<OutlineSide, 4> sides = outline.sides();
@@ -46,10 +52,10 @@ Engagement engagementIn(const std::array<double, 4>& units, const Outline& outli
     } else if (toSide.change < 0.0) {
       to = std::min(to, -toSide.start / toSide.change);
     } else if (toSide.start < 0.0) {
-      return result;
+      return both;
     }
   }
-  if (!(from < to)) return result;
+  if (!(from < to)) return both;
 
   const double length = along.norm();
   result.length = (to - from) * length;
@@ -65,6 +71,7 @@ Engagement engagementIn(const std::array<double, 4>& units, const Outline& outli
     }
   }
   Vector2 push = Vector2::Zero();
+  Vector2 linear = Vector2::Zero();
   for (double share = from; share < to;) {
     double until = to;
     std::size_t next = nearest;
@@ -80,31 +87,34 @@ Engagement engagementIn(const std::array<double, 4>& units, const Outline& outli
     }
     const double first = std::max(distances[nearest].at(share), 0.0);
     const double last = std::max(distances[nearest].at(until), 0.0);
-    push -= 0.5 * (until - share) * length * (first + last) / units[nearest] * sides[nearest].out;
+    const double part = (until - share) * length;
+    push -= 0.5 * part * (first + last) / units[nearest] * sides[nearest].out;
+    linear -= part / units[nearest] * sides[nearest].out;
     result.depth = std::max({result.depth, first, last});
     if (next == nearest) break;
     share = until;
     nearest = next;
   }
   result.push = at.turned(push);
-  return result;
+  both.linear = at.turned(linear);
+  return both;
 }
 
 }  // namespace
 
 Engagement engagement(const Outline& outline, const Placement& at, const Segment& wall) {
-  return engagementIn({1.0, 1.0, 1.0, 1.0}, outline, at, wall);
+  return engagementIn({1.0, 1.0, 1.0, 1.0}, outline, at, wall).squared;
 }
 
 Vector2 wayOut(const Outline& outline, const Placement& at, const Segment& wall) {
   const std::array<double, 4> reaches = {outline.front, outline.rear, outline.halfWidth,
                                          outline.halfWidth};
-  if (!wall.isPost()) return engagementIn(reaches, outline, at, wall).push;
+  if (!wall.isPost()) return engagementIn(reaches, outline, at, wall).linear;
   // A post counts as its diameter from side to side.
   Segment across = wall;
   across.start = wall.start - wall.radius * at.turned({0.0, 1.0});
   across.end = wall.start + wall.radius * at.turned({0.0, 1.0});
-  return engagementIn(reaches, outline, at, across).push;
+  return engagementIn(reaches, outline, at, across).linear;
 }
 
 }  // namespace bumper
