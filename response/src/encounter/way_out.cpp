@@ -70,13 +70,18 @@ Vector2 ContactSet::withoutLeadingThrough(const Vector2& way) const {
 
 // All walls that the outline stands in have one normal, the way out of all of them.
 void ContactSet::takeWayOut() {
+  constexpr double undecided = 1e-6;
   Vector2 way = Vector2::Zero();
+  double most = 0.0;
   for (const Manifold& wall : manifolds_) {
-    if (depthOfStanding(wall)) way += wayOut(vehicle_.outline, place_, wall.segment);
+    if (!depthOfStanding(wall)) continue;
+    const Vector2 each = wayOut(vehicle_.outline, place_, wall.segment);
+    way += each;
+    most = std::max(most, each.norm());
   }
   way = withoutLeadingThrough(way);
   const double length = way.norm();
-  way = length > 0.0 ? Vector2(way / length) : place_.turned({-1.0, 0.0});
+  way = length > undecided * most ? Vector2(way / length) : place_.turned({0.0, 1.0});
   for (Manifold& wall : manifolds_) {
     const std::optional<double> depth = depthOfStanding(wall);
     if (!depth) continue;
