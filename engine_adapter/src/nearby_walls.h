@@ -109,7 +109,7 @@ class NearbyWalls {
   WallQuery::Margins margins_;                          // how far it reaches beyond the envelope
   std::vector<Near> faces_;
   std::vector<Surface> surfaces_;
-  std::vector<Owner> owners_;      // of the surfaces
+  std::vector<Owner> owners_;       // of the surfaces
   std::size_t listedSurfaces_ = 0;  // the first of both; what comes after is entered
   std::vector<Segment> segments_;
   // Walls were found in the last step: cutting all faces at once is then fastest.

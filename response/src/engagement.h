@@ -25,10 +25,10 @@ struct Engagement {
 };
 Engagement engagement(const Outline& outline, const Placement& at, const Segment& wall);
 
-/// −∇ ∫ d ds with d relative to the distance of the side from the mass centre, dimensionless: a wall
-/// through the outline pushes it to the side of its mass centre. Summed up it says which way leads
-/// out of all walls that an outline stands in: a function that is concave while they are inside has
-/// no place to rest there.
+/// −∇ ∫ d ds with d relative to the distance of the side from the mass centre, dimensionless: a
+/// wall through the outline pushes it to the side of its mass centre. Summed up it says which way
+/// leads out of all walls that an outline stands in: a function that is concave while they are
+/// inside has no place to rest there.
 Vector2 wayOut(const Outline& outline, const Placement& at, const Segment& wall);
 
 /// Of a point inside the outline to the nearest side, m; negative: outside.

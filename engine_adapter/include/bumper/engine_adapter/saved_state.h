@@ -15,11 +15,11 @@ namespace bumper {
 /// force pulse still runs. Of the barrier's walls with these settings those that isOneWall() says.
 struct PassableWall {
   BarrierId barrier;
-  int settings = 0;  ///< number of the settings in the barrier
+  int settings = 0;                                  ///< number of the settings in the barrier
   Eigen::Vector3d place = Eigen::Vector3d::Zero();   ///< where it was hit, m
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, into the vehicle
-  double until = 0.0;  ///< end of the pulse; 0 if it broke
-  double depth = 0.0;  ///< penetration that the pulse allows, m
+  double until = 0.0;                                ///< end of the pulse; 0 if it broke
+  double depth = 0.0;                                ///< penetration that the pulse allows, m
 };
 
 /// A contact that has begun and not ended.
