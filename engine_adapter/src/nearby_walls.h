@@ -131,7 +131,8 @@ void NearbyWalls::enter(const IsOfIt& isOfIt, double depth) {
       ++entered;
     }
     if (entered == surfaces_.size()) {
-      owners_.push_back(Owner(owners_[number]));
+      const Owner owner = owners_[number];
+      owners_.push_back(owner);
       surfaces_.push_back(
           {.settings = surfaces_[number].settings, .entered = true, .depth = depth});
     }

@@ -15,7 +15,7 @@ namespace {
 
 /// Ground must go on for so far around a wall, m: a vehicle that meets it from beyond has wheels
 /// there.
-constexpr double around = 1.5;
+constexpr double ringWidth = 1.5;
 
 /// Places under a wall's sides are no further apart than this, m, and no more than so many.
 constexpr double spacing = 2.0;
@@ -102,7 +102,7 @@ class NearWalls {
 GroundBelow::GroundBelow(const Scene& scene, const std::vector<FlatTriangle>& flat,
                          const GroundReach& reach, const std::vector<Wall>& walls)
     : reach_(reach) {
-  const double distance = std::max(reach.distance, around) + discRadius;
+  const double distance = std::max(reach.distance, ringWidth) + discRadius;
   const NearWalls near(walls, reach, distance);
   visits_ = maxVisits * (flat.size() + 4 * walls.size());
   std::vector<TriangleCorners> narrow;
@@ -173,7 +173,7 @@ bool GroundBelow::isSurrounded(const Wall& wall) {
   const auto isSurroundedAt = [&](const Vector2& place) {
     if (!isCovered(place, lowest)) return false;
     return std::all_of(directions.begin(), directions.end(), [&](const Vector2& direction) {
-      return isCovered(place + around * direction, lowest);
+      return isCovered(place + ringWidth * direction, lowest);
     });
   };
   if (box.diagonal().head<2>().norm() < small) return isSurroundedAt(box.center().head<2>());
