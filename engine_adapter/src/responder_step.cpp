@@ -171,7 +171,10 @@ void Responder::Implementation::solve(Vehicle& vehicle, double h) {
                           .settings = number,
                           .place = state.massCentre + state.toWorld(each.impact.point),
                           .normal = state.toWorld(each.impact.normal)};
-    if (contactTime > 0.0) {
+    // What presses steadily is answered in each step, or it would sink in while pulses run.
+    const bool presses =
+        each.response.approachSpeed < impactInContact * barrier.settings(number).restSpeed;
+    if (contactTime > 0.0 && !presses) {
       pulse.addLong(each.response.impulse, each.time, contactTime);
       passable.until = time + each.time + contactTime;
       passable.depth = enteredDepth(each.response.approachSpeed, contactTime);

@@ -9,19 +9,17 @@ bool isOneWall(const Segment& segment, const Vector2& place, const Vector2& norm
   constexpr double thickness = 0.25;  // m
   constexpr double bend = 0.27;       // tan 15°
   constexpr double straight = 0.866;  // cos 30°
-  constexpr double aside = 0.26;      // cos 75°
   const Vector2 along = segment.end - segment.start;
   const double length2 = along.squaredNorm();
   const double share =
       length2 > 0.0 ? std::clamp((place - segment.start).dot(along) / length2, 0.0, 1.0) : 0.0;
   const Vector2 away = segment.start + share * along - place;
   if (segment.isPost()) return away.norm() <= segment.radius + thickness;
-  const double facing = std::abs(normal.dot(segment.normal));
-  // A convex vertex is hit as one, the end of a wall that points at the vehicle alone.
+  // An end, or a convex vertex.
   const double highest =
       std::max(normal.dot(segment.start - place), normal.dot(segment.end - place));
-  if (facing >= aside && away.norm() <= thickness && highest <= 0.2 * thickness) return true;
-  return facing >= straight &&
+  if (away.norm() <= thickness && highest <= 0.2 * thickness) return true;
+  return std::abs(normal.dot(segment.normal)) >= straight &&
          std::abs(normal.dot(away)) <= thickness + bend * std::abs(cross(normal, away));
 }
 

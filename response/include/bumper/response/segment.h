@@ -28,7 +28,7 @@ struct Segment {
 /// Whether a segment belongs to the wall that was hit at `place` along `normal`, unit: whether it
 /// lies within 0.25 m of that wall's line and turns away from it by less than 30°. On a wall that
 /// bends the line may be left by 0.27 m more for each metre along it. What is no further than 0.25
-/// m from the place and leads away from the vehicle, turned by less than 75°, belongs to it, too.
+/// m from the place and leads away from the vehicle belongs to it, too.
 bool isOneWall(const Segment& segment, const Vector2& place, const Vector2& normal);
 
 /// How segments respond. Collinear segments whose surfaces share a settings object are one wall;
