@@ -352,11 +352,11 @@ void Responder::restore(const SavedState& state) {
   }
   for (const VehicleMemory& memory : state.vehicles) {
     registered(self.vehicles, memory.vehicle.value, "vehicle");
-    for (const PassableWall& surface : memory.passable) {
-      const Barrier& barrier = registered(self.barriers, surface.barrier.value, "barrier");
-      if (surface.settings < 0 || surface.settings >= barrier.settingsCount()) {
+    for (const PassableWall& wall : memory.passable) {
+      const Barrier& barrier = registered(self.barriers, wall.barrier.value, "barrier");
+      if (wall.settings < 0 || wall.settings >= barrier.settingsCount()) {
         throw Error("restore: barrier '" + barrier.name() + "' has no settings number " +
-                    std::to_string(surface.settings));
+                    std::to_string(wall.settings));
       }
     }
     for (const SustainedContact& contact : memory.contacts) {

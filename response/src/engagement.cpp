@@ -18,31 +18,24 @@ struct Distance {
   [[nodiscard]] double at(double share) const { return start + share * change; }
 };
 
-}  // namespace
-
-double depthInside(const Outline& outline, const Placement& at, const Vector2& point) {
-  const Vector2 local = at.local(point);
-  return -separationFrom(outline, local, local).distance;
-}
-
-namespace {
-
-// An engagement with the distance to each side in units of its own, and its push with d for ½ d².
-struct Engagements {
-  Engagement squared;
-  Vector2 linear = Vector2::Zero();
+// The part of a wall inside an outline, as shares of its length; empty unless from < to.
+struct Inside {
+  double from = 0.0;
+  double to = 1.0;
 };
 
-Engagements engagementIn(const std::array<double, 4>& units, const Outline& outline,
-                         const Placement& at, const Segment& wall) {
-  Engagements both;
-  Engagement& result = both.squared;
+// Calls with each stretch of a wall inside, over which one side is the nearest: the side, the
+// stretch as shares of the wall's length, and the distance at both of its ends. Distances to each
+// side are in units of its own.
+template <typename Call>
+Inside forEachStretch(const std::array<double, 4>& units, const Outline& outline,
+                      const Placement& at, const Segment& wall, const Call& call) {
+  Inside inside;
+  auto& [from, to] = inside;
   const Vector2 start = at.local(wall.start);
   const Vector2 along = at.turnedBack(wall.end - wall.start);
   const std::array<OutlineSide, 4> sides = outline.sides();
   std::array<Distance, 4> distances;
-  double from = 0.0;
-  double to = 1.0;
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Distance toSide{.start = (sides[i].reach - sides[i].out.dot(start)) / units[i],
                           .change = -sides[i].out.dot(along) / units[i]};
@@ -52,14 +45,11 @@ Engagements engagementIn(const std::array<double, 4>& units, const Outline& outl
     } else if (toSide.change < 0.0) {
       to = std::min(to, -toSide.start / toSide.change);
     } else if (toSide.start < 0.0) {
-      return both;
+      return {.from = 1.0, .to = 0.0};
     }
   }
-  if (!(from < to)) return both;
+  if (!(from < to)) return inside;
 
-  const double length = along.norm();
-  result.length = (to - from) * length;
-  result.moment = result.length * (wall.start + 0.5 * (from + to) * (wall.end - wall.start));
   // The distance to the nearest side is concave along the wall: sides take turns in order of
   // decreasing change.
   std::size_t nearest = 0;
@@ -70,8 +60,6 @@ Engagements engagementIn(const std::array<double, 4>& units, const Outline& outl
       nearest = i;
     }
   }
-  Vector2 push = Vector2::Zero();
-  Vector2 linear = Vector2::Zero();
   for (double share = from; share < to;) {
     double until = to;
     std::size_t next = nearest;
@@ -85,36 +73,58 @@ Engagements engagementIn(const std::array<double, 4>& units, const Outline& outl
         next = i;
       }
     }
-    const double first = std::max(distances[nearest].at(share), 0.0);
-    const double last = std::max(distances[nearest].at(until), 0.0);
-    const double part = (until - share) * length;
-    push -= 0.5 * part * (first + last) / units[nearest] * sides[nearest].out;
-    linear -= part / units[nearest] * sides[nearest].out;
-    result.depth = std::max({result.depth, first, last});
+    call(nearest, until - share, std::max(distances[nearest].at(share), 0.0),
+         std::max(distances[nearest].at(until), 0.0));
     if (next == nearest) break;
     share = until;
     nearest = next;
   }
-  result.push = at.turned(push);
-  both.linear = at.turned(linear);
-  return both;
+  return inside;
 }
 
 }  // namespace
 
+double depthInside(const Outline& outline, const Placement& at, const Vector2& point) {
+  const Vector2 local = at.local(point);
+  return -separationFrom(outline, local, local).distance;
+}
+
 Engagement engagement(const Outline& outline, const Placement& at, const Segment& wall) {
-  return engagementIn({1.0, 1.0, 1.0, 1.0}, outline, at, wall).squared;
+  Engagement result;
+  const std::array<OutlineSide, 4> sides = outline.sides();
+  const double length = at.turnedBack(wall.end - wall.start).norm();
+  Vector2 push = Vector2::Zero();
+  const Inside inside =
+      forEachStretch({1.0, 1.0, 1.0, 1.0}, outline, at, wall,
+                     [&](std::size_t side, double share, double first, double last) {
+                       push -= 0.5 * (share * length) * (first + last) * sides[side].out;
+                       result.depth = std::max({result.depth, first, last});
+                     });
+  if (!(inside.from < inside.to)) return result;
+  result.length = (inside.to - inside.from) * length;
+  result.moment =
+      result.length * (wall.start + 0.5 * (inside.from + inside.to) * (wall.end - wall.start));
+  result.push = at.turned(push);
+  return result;
 }
 
 Vector2 wayOut(const Outline& outline, const Placement& at, const Segment& wall) {
+  Segment sheet = wall;
+  if (wall.isPost()) {
+    // It counts as its diameter from side to side.
+    sheet.start = wall.start - wall.radius * at.turned({0.0, 1.0});
+    sheet.end = wall.start + wall.radius * at.turned({0.0, 1.0});
+  }
+  const std::array<OutlineSide, 4> sides = outline.sides();
   const std::array<double, 4> reaches = {outline.front, outline.rear, outline.halfWidth,
                                          outline.halfWidth};
-  if (!wall.isPost()) return engagementIn(reaches, outline, at, wall).linear;
-  // A post counts as its diameter from side to side.
-  Segment across = wall;
-  across.start = wall.start - wall.radius * at.turned({0.0, 1.0});
-  across.end = wall.start + wall.radius * at.turned({0.0, 1.0});
-  return engagementIn(reaches, outline, at, across).linear;
+  const double length = at.turnedBack(sheet.end - sheet.start).norm();
+  Vector2 push = Vector2::Zero();
+  forEachStretch(reaches, outline, at, sheet,
+                 [&](std::size_t side, double share, double /*first*/, double /*last*/) {
+                   push -= share * length / reaches[side] * sides[side].out;
+                 });
+  return at.turned(push);
 }
 
 }  // namespace bumper

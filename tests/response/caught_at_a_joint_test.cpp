@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "car.h"
 #include "rows_of_blocks.h"
 
 namespace bumper::tests {
@@ -10,13 +11,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double degree = pi / 180.0;
-constexpr VehicleParameters car{.mass = 1500.0,
-                                .yawInertia = 2600.0,
-                                .massCentreToFront = 2.1,
-                                .massCentreToRear = 2.5,
-                                .width = 1.8,
-                                .massCentreHeight = 0.55};
-
 // A corner that slides exactly along a face leaves it over a joint: it is not caught by the end of
 // the block that it leaves.
 TEST(CaughtAtAJoint, OfABlockThatIsLeft) {

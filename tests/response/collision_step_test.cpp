@@ -8,19 +8,13 @@
 #include <numbers>
 #include <vector>
 
+#include "car.h"
 #include "random_impacts.h"
 
 namespace bumper::tests {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
-
-constexpr VehicleParameters car{.mass = 1500.0,
-                                .yawInertia = 2600.0,
-                                .massCentreToFront = 2.1,
-                                .massCentreToRear = 2.5,
-                                .width = 1.8,
-                                .massCentreHeight = 0.55};
 
 const ResponseSettings paperSettings;
 const std::array paperSurface{Surface{.settings = &paperSettings}};

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bumper/response/collision_step.h"
+#include "car.h"
 
 /// A small change of the approach changes the answer little: one car, one flat wall, every tenth of
 /// a degree.
@@ -15,13 +16,6 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr double sixtyMilesPerHour = 26.8224;  // m/s
-
-constexpr VehicleParameters car{.mass = 1500.0,
-                                .yawInertia = 2600.0,
-                                .massCentreToFront = 2.1,
-                                .massCentreToRear = 2.5,
-                                .width = 1.8,
-                                .massCentreHeight = 0.55};
 
 struct Rebound {
   double yawRate = 0.0;  ///< °/s, positive to the left

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "bumper/response/collision_step.h"
+#include "car.h"
 #include "random_impacts.h"
 
 /// A car meets the vertex of two walls that bend away from it: from one wall (0°) to a fence that
@@ -20,13 +21,6 @@ constexpr double speed = 20.0;   // m/s
 constexpr double step = 0.01;    // s
 constexpr double gap = 0.1;      // of the tip before the front, m
 constexpr double length = 20.0;  // of each wall, m
-
-constexpr VehicleParameters car{.mass = 1500.0,
-                                .yawInertia = 2600.0,
-                                .massCentreToFront = 2.1,
-                                .massCentreToRear = 2.5,
-                                .width = 1.8,
-                                .massCentreHeight = 0.55};
 
 struct Vertex {
   double bend = 0.0;     ///< of the two walls, °

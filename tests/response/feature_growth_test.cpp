@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include "car.h"
 #include "rows_of_blocks.h"
 
 /// The response to a block that stands out of a wall, from not at all to three smallest features.
@@ -11,13 +12,6 @@ namespace bumper::tests {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
-
-constexpr VehicleParameters car{.mass = 1500.0,
-                                .yawInertia = 2600.0,
-                                .massCentreToFront = 2.1,
-                                .massCentreToRear = 2.5,
-                                .width = 1.8,
-                                .massCentreHeight = 0.55};
 
 /// After a step in which the front right corner, which lies on the wall, meets the block.
 PlanarMotion afterMeeting(double off, double speed, double heading) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bumper/response/collision_step.h"
+#include "car.h"
 #include "random_impacts.h"
 
 /// What stands free is hit, however thin it is or however little of it is in the way: the rule for
@@ -16,13 +17,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double touchDepth = 1e-6;  // m
-
-constexpr VehicleParameters car{.mass = 1500.0,
-                                .yawInertia = 2600.0,
-                                .massCentreToFront = 2.1,
-                                .massCentreToRear = 2.5,
-                                .width = 1.8,
-                                .massCentreHeight = 0.55};
 
 Segment between(const Vector2& start, const Vector2& end, int id = 0) {
   return {.start = start, .end = end, .normal = turnedLeft((end - start).normalized()), .id = id};

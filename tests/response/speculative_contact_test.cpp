@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bumper/response/collision_step.h"
+#include "car.h"
 #include "random_impacts.h"
 
 namespace bumper::tests {
@@ -18,13 +19,6 @@ namespace {
 
 const ResponseSettings usual;
 const std::array usualSurface{Surface{.settings = &usual}};
-
-constexpr VehicleParameters car{.mass = 1500.0,
-                                .yawInertia = 2600.0,
-                                .massCentreToFront = 2.1,
-                                .massCentreToRear = 2.5,
-                                .width = 1.8,
-                                .massCentreHeight = 0.55};
 
 struct Case {
   VehicleParameters vehicle;

@@ -30,7 +30,7 @@ bool isBehind(const Overlap& wall, const Overlap& front) {
 
 // Whether what is inside the outline of one wall lies on the face of another, from where it rises:
 // the second wall of an inside corner that is just reached.
-bool risesFrom(const Manifold& wall, const Overlap& front) {
+bool leadsUpFrom(const Manifold& wall, const Overlap& front) {
   const auto height = [&](const Vector2& point) { return front.normal.dot(point) - front.offset; };
   const Overlap& inside = wall.overlap;
   const double lowest = std::min(height(inside.insideFrom), height(inside.insideTo));
@@ -40,6 +40,13 @@ bool risesFrom(const Manifold& wall, const Overlap& front) {
 }
 
 }  // namespace
+
+std::optional<Vector2> endAt(const Segment& wall, const Vector2& place) {
+  for (const Vector2& end : {wall.start, wall.end}) {
+    if ((end - place).norm() <= jointWidth) return end;
+  }
+  return std::nullopt;
+}
 
 void ContactSet::begin(std::span<const Segment> segments, std::span<const Surface> surfaces) {
   surfaces_ = surfaces;
@@ -122,7 +129,7 @@ bool ContactSet::isShielded(const Overlap& end) const {
 bool ContactSet::isHidden(const Manifold& wall) const {
   return std::any_of(manifolds_.begin(), manifolds_.end(), [&](const Manifold& other) {
     if (&wall == &other || !other.touched || other.passed) return false;
-    if (!isBehind(wall.overlap, other.overlap) || risesFrom(wall, other.overlap)) return false;
+    if (!isBehind(wall.overlap, other.overlap) || leadsUpFrom(wall, other.overlap)) return false;
     if (!isBehind(other.overlap, wall.overlap)) return true;
     // Each behind the other: a convex corner. The vehicle entered through the one touched last.
     const double own = sinceTouch(wall);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,9 @@ struct Manifold {
   double ignoredUntil = 0.0;  ///< touches before this time were checked, to no effect
   Answer answered{};
 };
+
+/// The end of a wall that meets a place; none if neither does.
+std::optional<Vector2> endAt(const Segment& wall, const Vector2& place);
 
 /// The walls near a vehicle, merged, and how its outline touches them where it is now.
 class ContactSet {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "../engagement.h"
 #include "../tolerances.h"
@@ -12,7 +13,7 @@ namespace bumper {
 
 namespace {
 
-// From this weight of a wall that goes on on, a contact is that of the chain and no longer in part
+// From this weight of a wall that goes on, a contact is that of the chain and no longer in part
 // that of the touched wall alone.
 constexpr double wholeWeight = 0.25;
 
@@ -54,8 +55,9 @@ class Chain {
       const double facing = std::max(std::cos(way.turned), yielding_);
       if (facing <= 0.0 || way.turned > std::numbers::pi) return;
       include(*next.wall, weight * facing);
-      if (next.wall != way.touched)
+      if (next.wall != way.touched) {
         share_ = std::max(share_, std::min(weight * facing / wholeWeight, 1.0));
+      }
       way.last = next.wall;
       way.place = next.end;
       way.along = next.along;
@@ -130,12 +132,10 @@ EngagedContact engagedContact(const ContactSet& contacts, const Manifold& struck
   const Vector2 tangent = turnedLeft(touch.normal);
   const Vector2 touched = touch.deepest * tangent + touch.offset * touch.normal;
   Chain chain(contacts, engaged, yielding);
-  const bool atStart = (wall.start - touched).norm() <= jointWidth;
-  const bool atEnd = (wall.end - touched).norm() <= jointWidth;
-  if (touch.byEnd && (atStart || atEnd)) {
-    const Vector2& place = atStart ? wall.start : wall.end;
-    chain.follow({.place = place, .along = tangent, .side = -1.0, .touched = &struck});
-    chain.follow({.place = place, .along = -tangent, .side = 1.0, .touched = &struck});
+  const std::optional<Vector2> end = touch.byEnd ? endAt(wall, touched) : std::nullopt;
+  if (end) {
+    chain.follow({.place = *end, .along = tangent, .side = -1.0, .touched = &struck});
+    chain.follow({.place = *end, .along = -tangent, .side = 1.0, .touched = &struck});
   } else {
     const bool forward = tangent.dot(wall.end - wall.start) > 0.0;
     const Vector2 along = (wall.end - wall.start).normalized();

@@ -49,8 +49,7 @@ Yielding yieldingOf(const ContactSet& contacts, const Manifold& struck, const Ve
   const Segment& wall = struck.segment;
   if (!(size > 0.0) || wall.isPost()) return result;
   const Outline near = outline.grown(2.0 * size);
-  const bool atStart = (wall.start - touched).squaredNorm() <= jointWidth * jointWidth;
-  const bool atEnd = (wall.end - touched).squaredNorm() <= jointWidth * jointWidth;
+  const std::optional<Vector2> end = struck.overlap.byEnd ? endAt(wall, touched) : std::nullopt;
   for (const Manifold& other : contacts.all()) {
     if (&other == &struck || other.passed || other.segment.isPost()) continue;
     const std::optional<Overlap> ground = findTouch(near, at, other.segment);
@@ -58,8 +57,7 @@ Yielding yieldingOf(const ContactSet& contacts, const Manifold& struck, const Ve
     const Vector2& up = ground->normal;
     const double across = std::clamp((steepest - up.dot(normal)) / (steepest - flattest), 0.0, 1.0);
     if (across == 0.0) continue;
-    Vector2 top = up.dot(wall.end - wall.start) > 0.0 ? wall.end : wall.start;
-    if (struck.overlap.byEnd && (atStart || atEnd)) top = atStart ? wall.start : wall.end;
+    const Vector2 top = end ? *end : up.dot(wall.end - wall.start) > 0.0 ? wall.end : wall.start;
     const double covered = up.dot(top) - lowest(outline, at, up);
     if (covered < -touchTolerance) continue;
     // Only what lies on the vehicle's side of the feature, and that the outline is not in itself.

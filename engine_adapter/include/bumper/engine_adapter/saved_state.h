@@ -12,7 +12,8 @@
 namespace bumper {
 
 /// A wall that a vehicle passes through: it broke and the outline has not left it yet, or its long
-/// force pulse still runs. Of the barrier's walls with these settings those that isOneWall() says.
+/// force pulse still runs: those that isOneWall() says, of all barriers while a pulse runs, of one
+/// that broke those of its barrier with its settings.
 struct PassableWall {
   BarrierId barrier;
   int settings = 0;                                  ///< number of the settings in the barrier
