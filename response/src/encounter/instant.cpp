@@ -3,12 +3,10 @@
 #include "instant.h"
 
 #include <algorithm>
-#include <array>
 
 #include "../tolerances.h"
 #include "bumper/response/collision_step.h"
 #include "bumper/response/sweep.h"
-#include "end_approach.h"
 
 namespace bumper {
 
@@ -40,7 +38,7 @@ void Instant::begin(double step) {
   impacts_.clear();
 }
 
-Settled Instant::settle(double time) {
+Settled Instant::settle(double time, Effort effort) {
   for (int count = 0;; ++count) {
     Next next = firstNewWall();
     if (next.wall == nullptr) next = fastestStruckWall();
@@ -54,7 +52,7 @@ Settled Instant::settle(double time) {
     const Overlap& overlap = next.wall->overlap;
     const bool slides = time > 0.0 && overlap.byEnd && overlap.depth > freshDepth &&
                         next.at.speed <= vehicle_.gapAcceleration() * step_ / looksInStep;
-    const bool tooMany = count >= plasticAfter || (!slides && answers_ >= plasticInStepAfter);
+    const bool tooMany = effort == Effort::plastic || count >= plasticAfter || (!slides && answers_ >= plasticInStepAfter);
     Rebound rebound = slides ? Rebound::elastic : Rebound::as_set;
     if (tooMany) rebound = Rebound::none;
     answer(next, time, rebound);
@@ -111,19 +109,14 @@ void Instant::answer(const Next& next, double time, Rebound rebound) {
   }
 }
 
-// All contacts act at once. They are reported as successive impacts, each consistent with its own
-// arm, and their sum with the total: the energy they dissipate is shared by impulse and approach
-// speed.
-void Instant::answerTogether(double time) {
-  std::array<TouchingPoint, mostTouchingPoints> points;
-  std::array<Next, mostTouchingPoints> owners;
+std::span<const TouchingPoint> Instant::touchingPoints() {
   std::size_t count = 0;
   for (Manifold& wall : contacts_.all()) {
     if (!wall.touched || wall.hidden || wall.passed) continue;
     const auto add = [&](const Approach& at) {
-      if (count == points.size()) return;
-      points[count] = {.normal = at.normal, .arm = at.contact.arm};
-      owners[count++] = {.wall = &wall, .at = at};
+      if (count == points_.size()) return;
+      points_[count] = {.normal = at.normal, .arm = at.contact.arm};
+      owners_[count++] = {.wall = &wall, .at = at};
     };
     const Answer answer = contacts_.answerTo(wall, contacts_.touching(wall));
     if (answer.yields) {
@@ -134,10 +127,27 @@ void Instant::answerTogether(double time) {
       add(contacts_.approach(contact, wall.overlap.normal));
     }
   }
+  return {points_.data(), count};
+}
+
+void Instant::takePart(std::size_t point, double impulse, double time) {
+  const auto& [wall, at] = owners_[point];
+  ImpactResponse response =
+      plainResponse({.normal = at.normal, .arm = at.contact.arm}, vehicle_.body,
+                    onVehicle({.normal = impulse}, at.normal, at.contact.arm));
+  response.approachSpeed = at.speed;
+  record(*wall, at, time, response);
+}
+
+// All contacts act at once. They are reported as successive impacts, each consistent with its own
+// arm, and their sum with the total: the energy they dissipate is shared by impulse and approach
+// speed.
+void Instant::answerTogether(double time) {
+  const std::span<const TouchingPoint> points = touchingPoints();
   const PlanarBody before = vehicle_.body;
-  SharedImpulse impulse = endApproach(before, std::span(points.data(), count));
+  SharedImpulse impulse = endApproach(before, points);
   const std::span<CarryingPoint> shares = impulse.all();
-  const auto speedAt = [&](const CarryingPoint& share) { return owners[share.point].at.speed; };
+  const auto speedAt = [&](const CarryingPoint& share) { return owners_[share.point].at.speed; };
   for (auto next = shares.begin(); next != shares.end(); ++next) {
     std::iter_swap(next, std::max_element(next, shares.end(), [&](const auto& a, const auto& b) {
                      return speedAt(a) < speedAt(b);
@@ -156,7 +166,7 @@ void Instant::answerTogether(double time) {
 
   PlanarImpulse left = impulse.sum;
   for (const CarryingPoint& share : shares) {
-    const auto& [wall, at] = owners[share.point];
+    const auto& [wall, at] = owners_[share.point];
     const bool last = &share == &shares.back();
     // The last one absorbs the rounding.
     const PlanarImpulse part =

@@ -26,6 +26,7 @@ struct PassableWall {
 /// A contact that has begun and not ended.
 struct SustainedContact {
   BarrierId barrier;
+  VehicleId vehicle;  ///< instead of a barrier: another one, registered later
   int wall = 0;  ///< number of the wall in the barrier that was touched last
   double begun = 0.0;
   double last = 0.0;
@@ -35,6 +36,13 @@ struct SustainedContact {
   double load = 0.0;            ///< N, along the normal: the recent maximum, decaying
   Eigen::Vector3d contact = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+};
+
+/// Another vehicle, registered later, with which a long force pulse runs: no further impact occurs
+/// until it ends.
+struct PassableVehicle {
+  VehicleId vehicle;
+  double until = 0.0;
 };
 
 /// What the last step() added to a vehicle's bodies, and the chassis' state then.
@@ -73,6 +81,7 @@ struct VehicleMemory {
   LastDelivery delivery;
   Expectation expectation;
   std::vector<PassableWall> passable;
+  std::vector<PassableVehicle> passableVehicles;
   std::vector<SustainedContact> contacts;
   std::vector<GuardLoad> guards;  ///< in a saved state only
 };
