@@ -9,6 +9,7 @@
 #include "free_space.h"
 #include "guard_contacts.h"
 #include "nearby_walls.h"
+#include "traffic.h"
 #include "vehicle_bodies.h"
 
 namespace bumper {
@@ -23,12 +24,25 @@ struct Vehicle {
         minUprightness(std::cos(tiltLimit)),
         envelope(itsParameters, band),
         freeSpace(bodies, envelope, minUprightness) {
+    traveller.vehicle = this;
+    traveller.position = dBodyGetPosition(bodies.chassis());
+    traveller.velocity = dBodyGetLinearVel(bodies.chassis());
+    const Eigen::Vector3d chassis(traveller.position[0], traveller.position[1],
+                                  traveller.position[2]);
+    traveller.radius =
+        envelope.outline().radius() + (bodies.readPose().massCentre - chassis).norm();
     for (VehicleMemory* each : {&memory, &memoryBefore}) {
       each->vehicle = id;
       each->passable.reserve(4);
       each->contacts.reserve(4);
+      each->passableVehicles.reserve(4);
     }
   }
+  ~Vehicle() { Traffic::remove(traveller); }
+  Vehicle(const Vehicle&) = delete;
+  Vehicle& operator=(const Vehicle&) = delete;
+  Vehicle(Vehicle&&) = delete;
+  Vehicle& operator=(Vehicle&&) = delete;
 
   /// Its state as read before anything is solved in a step.
   struct Reading {
@@ -39,6 +53,8 @@ struct Vehicle {
     PlanarMotion motion;
     /// Joints act on it too, and it may get guard contacts.
     bool isHeld = false;
+    /// ODE has put it to sleep; it takes part because another vehicle may wake it.
+    bool isAsleep = false;
   };
 
   VehicleParameters parameters;
@@ -53,6 +69,17 @@ struct Vehicle {
   VehicleMemory memory;
   VehicleMemory memoryBefore;  // as it was before the last step()
   unsigned issues = step_issue::none;
+
+  // Of this step.
+  Traveller traveller;
+  bool isFar = false;       ///< certainly away from all walls
+  bool isAlone = true;      ///< certainly away from all other vehicles
+  bool isActive = false;    ///< … not both
+  bool hasCompany = false;  ///< another vehicle may meet it
+  bool isInIsland = false;
+  bool isHit = false;    ///< by another vehicle
+  int island = -1;       ///< its number; −1: none
+  int islandPlace = -1;  ///< its place among the island's members
 
   /// False also where the rotation is not finite.
   [[nodiscard]] bool isUpright() const { return uprightness(bodies.chassis()) >= minUprightness; }

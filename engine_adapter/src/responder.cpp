@@ -44,6 +44,15 @@ void validateSettings(const ResponseSettings& settings, const ResponderOptions& 
   }
 }
 
+void validateOfPair(const ResponseSettings& settings, const char* what) {
+  validate(settings);
+  if (settings.method == Method::paper) {
+    throw Error(std::string(what) + ": the paper's method has no law for two vehicles");
+  }
+  if (breaks(settings))
+    throw Error(std::string(what) + ": vehicles do not break through each other");
+}
+
 // Of a barrier where more than this part of what may be a wall was dropped on a guess.
 constexpr double muchOnGuess = 0.1;
 
@@ -105,12 +114,12 @@ void update(Responder::Implementation& responder, const Barrier& old, const Barr
     if (vehicle == nullptr) continue;
     for (VehicleMemory* memory : {&vehicle->memory, &vehicle->memoryBefore}) {
       for (SustainedContact& contact : memory->contacts) {
-        if (contact.barrier == old.id())
+        if (contact.with.barrier == old.id())
           contact.wall = std::min(contact.wall, fresh->wallCount() - 1);
       }
     }
     for (GuardLoad& load : vehicle->guards.loads()) {
-      if (load.barrier == old.id()) load.wall = std::min(load.wall, fresh->wallCount() - 1);
+      if (load.with.barrier == old.id()) load.wall = std::min(load.wall, fresh->wallCount() - 1);
     }
   }
   forgetGeom(responder, old);
@@ -146,6 +155,7 @@ Responder::Responder(dWorldID world, const ResponderOptions& options) {
     throw Error("Responder: this ODE is not built in double precision");
   }
   validate(options.response);
+  validateOfPair(options.vehicleResponse, "ResponderOptions::vehicleResponse");
   implementation_ = std::make_unique<Implementation>();
   implementation_->world = world;
   implementation_->options = options;
@@ -272,7 +282,18 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
   // So that step() need not allocate when the first vehicle hits the first wall.
   self.events.reserve(CollisionStep::maxImpacts + 16 * self.vehicles.size());
   self.active.resize(self.vehicles.size());
+  self.travellers.reserve(self.vehicles.size());
+  self.traffic.add(self.vehicles.back()->traveller);
   return {id};
+}
+
+void Responder::setPair(VehicleId a, VehicleId b, const PairOptions& options) {
+  Implementation& self = *implementation_;
+  registered(self.vehicles, a.value, "vehicle");
+  registered(self.vehicles, b.value, "vehicle");
+  if (a == b) throw Error("setPair: both vehicles are the same");
+  if (options.response) validateOfPair(*options.response, "setPair");
+  self.pairOptions.insert_or_assign(std::minmax(a.value, b.value), options);
 }
 
 void Responder::removeBarrier(BarrierId barrier) {
@@ -280,12 +301,13 @@ void Responder::removeBarrier(BarrierId barrier) {
   for (const std::unique_ptr<Vehicle>& vehicle : implementation_->vehicles) {
     if (vehicle == nullptr) continue;
     for (VehicleMemory* memory : {&vehicle->memory, &vehicle->memoryBefore}) {
-      const auto isOfIt = [&](const auto& each) { return each.barrier == barrier; };
-      std::erase_if(memory->passable, isOfIt);
-      std::erase_if(memory->contacts, isOfIt);
+      std::erase_if(memory->passable,
+                    [&](const PassableWall& each) { return each.barrier == barrier; });
+      std::erase_if(memory->contacts,
+                    [&](const SustainedContact& each) { return each.with.barrier == barrier; });
     }
     for (GuardLoad& load : vehicle->guards.loads()) {
-      if (load.barrier == barrier) load.barrier = {};
+      if (load.with.barrier == barrier) load.with = {};
     }
   }
   implementation_->forgetSurroundings();
@@ -298,6 +320,21 @@ void Responder::removeVehicle(VehicleId vehicle) {
   const Vehicle& removed = registered(implementation_->vehicles, vehicle.value, "vehicle");
   for (dBodyID body : removed.bodies.all()) implementation_->vehicleOfBody.erase(body);
   implementation_->warnings.drop(&removed);
+  std::erase_if(implementation_->pairOptions, [&](const auto& rule) {
+    return rule.first.first == vehicle.value || rule.first.second == vehicle.value;
+  });
+  for (const std::unique_ptr<Vehicle>& other : implementation_->vehicles) {
+    if (other == nullptr) continue;
+    for (VehicleMemory* memory : {&other->memory, &other->memoryBefore}) {
+      std::erase_if(memory->passableVehicles,
+                    [&](const PassableVehicle& each) { return each.vehicle == vehicle; });
+      std::erase_if(memory->contacts,
+                    [&](const SustainedContact& each) { return each.with.vehicle == vehicle; });
+    }
+    for (GuardLoad& load : other->guards.loads()) {
+      if (load.with.vehicle == vehicle) load.with = {};
+    }
+  }
   std::unique_ptr<Vehicle>& place =
       implementation_->vehicles[static_cast<std::size_t>(vehicle.value)];
   place->guards.release();
@@ -359,8 +396,15 @@ void Responder::restore(const SavedState& state) {
                     std::to_string(wall.settings));
       }
     }
+    for (const PassableVehicle& other : memory.passableVehicles) {
+      registered(self.vehicles, other.vehicle.value, "vehicle");
+    }
     for (const SustainedContact& contact : memory.contacts) {
-      const Barrier& barrier = registered(self.barriers, contact.barrier.value, "barrier");
+      if (contact.with.vehicle != VehicleId{}) {
+        registered(self.vehicles, contact.with.vehicle.value, "vehicle");
+        continue;
+      }
+      const Barrier& barrier = registered(self.barriers, contact.with.barrier.value, "barrier");
       if (contact.wall < 0 || contact.wall >= barrier.wallCount()) {
         throw Error("restore: barrier '" + barrier.name() + "' has no wall number " +
                     std::to_string(contact.wall));

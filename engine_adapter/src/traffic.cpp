@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "guard_contacts.h"
+
 namespace bumper {
 
 namespace {
@@ -22,6 +24,11 @@ constexpr double farthest = 1e12;
 
 // A vehicle hit by another may leave faster than that came: by its lightness and rebound.
 constexpr double fasterAfterHit = 2.0;
+
+// The gap that two may close in a step at these speeds or at those after a blow, m.
+double reachOf(double closing, double h) {
+  return guardDistance(0.5 * fasterAfterHit * closing, h);
+}
 
 }  // namespace
 
@@ -103,7 +110,7 @@ void Traffic::meet(Traveller& one, Traveller& other, double now, double h) {
   one.apartUntil = std::min(one.apartUntil, until);
   other.apartUntil = std::min(other.apartUntil, until);
   const double company = std::max(one.companySpeed, other.companySpeed);
-  if (gap > fasterAfterHit * (one.companySpeed + other.companySpeed) * h) return;
+  if (gap > reachOf(one.companySpeed + other.companySpeed, h)) return;
   pairs_.push_back(std::minmax(&one, &other));
   for (Traveller* each : {&one, &other}) {
     if (each->companySpeed < company) {
@@ -123,7 +130,7 @@ void Traffic::look(std::span<Traveller* const> some, double now, double h) {
   for (std::size_t next = 0; next < queue_.size(); ++next) {
     Traveller& one = *queue_[next];
     one.isQueued = false;
-    const double reach = fasterAfterHit * 2.0 * one.companySpeed * h;
+    const double reach = reachOf(2.0 * one.companySpeed, h);
     const long rings = 1 + static_cast<long>(std::min(2.0 * reach / cell_, 8.0));
     for (long x = one.cellX - rings; x <= one.cellX + rings; ++x) {
       for (long y = one.cellY - rings; y <= one.cellY + rings; ++y) {

@@ -20,11 +20,11 @@ struct Traveller {
   const dReal* velocity = nullptr;
   double radius = 0.0;  ///< of a circle around the chassis' position that holds the outline, m
 
-  double x = 0.0, y = 0.0;      ///< where it was last looked at, m
-  double looked = 0.0;          ///< … and when, s
-  double speedLimit = 0.0;      ///< that it keeps until it is looked at again, m/s
-  double apartUntil = 0.0;      ///< so long no other vehicle can reach it, s
-  double companySpeed = 0.0;    ///< the limit of the fastest that may set it moving in this step
+  double x = 0.0, y = 0.0;    ///< where it was last looked at, m
+  double looked = 0.0;        ///< … and when, s
+  double speedLimit = 0.0;    ///< that it keeps until it is looked at again, m/s
+  double apartUntil = 0.0;    ///< so long no other vehicle can reach it, s
+  double companySpeed = 0.0;  ///< the limit of the fastest that may set it moving in this step
   long cellX = 0, cellY = 0;
   bool isListed = false;
   bool isQueued = false;
@@ -68,8 +68,8 @@ inline bool Traffic::isApart(const Traveller& traveller, double now, double h) {
   if (!(now + h <= traveller.apartUntil)) return false;
   const double x = traveller.position[0] - traveller.x;
   const double y = traveller.position[1] - traveller.y;
-  const double speed2 = traveller.velocity[0] * traveller.velocity[0] +
-                        traveller.velocity[1] * traveller.velocity[1];
+  const double speed2 =
+      traveller.velocity[0] * traveller.velocity[0] + traveller.velocity[1] * traveller.velocity[1];
   const double limit = traveller.speedLimit;
   const double way = limit * (now - traveller.looked);
   return speed2 <= limit * limit && x * x + y * y <= way * way + 1e-6;

@@ -30,6 +30,7 @@ ImpactResponse before(const PlanarBody& vehicle, const PlanarBody& other,
                       const ContactVelocity& velocity) {
   ImpactResponse response;
   response.before = vehicle.motion;
+  response.otherBefore = other.motion;
   response.otherAfter = other.motion;
   response.approachSpeed = -velocity.normal;
   return response;
@@ -124,11 +125,10 @@ ImpactResponse respond(const Impact& impact, const PlanarBody& vehicle, const Pl
     response.energyAsked = std::numeric_limits<double>::quiet_NaN();
     response.restitution = rebound == Rebound::elastic ? 1.0 : fade * settings.restitution(attack);
     const Friction friction{.kind = settings.frictionKind, .value = response.friction};
-    response.contact =
-        settings.restitutionKind == RestitutionKind::kudlich_slibar
-            ? solveKudlichSlibar(mobility, velocity, response.restitution, friction)
-            : answerByRestitution(mobility, velocity, response.restitution, friction,
-                                  settings.method);
+    response.contact = settings.restitutionKind == RestitutionKind::kudlich_slibar
+                           ? solveKudlichSlibar(mobility, velocity, response.restitution, friction)
+                           : answerByRestitution(mobility, velocity, response.restitution, friction,
+                                                 settings.method);
   }
   apply(response, impact, vehicle, other,
         onVehicle(response.contact.impulse, impact.normal, impact.arm));

@@ -147,8 +147,8 @@ double Encounter::quietTime(const Manifold& wall) const {
         !overlap.byEnd && std::min(along - overlap.start, overlap.end - along) > touchTolerance;
     // Turning draws a corner away from the wall as long as it lies on the wall's side of the mass
     // centre; at the step's end, too.
-    const double highest =
-        overlap.normal.dot(contact.arm) + std::abs(motion.yawRate) * step_ * vehicle_.outline.radius();
+    const double highest = overlap.normal.dot(contact.arm) +
+                           std::abs(motion.yawRate) * step_ * vehicle_.outline.radius();
     if (!isCorner || highest > 0.0) {
       time = std::min(time, leastTime(unseenDepth, -overlap.normal.dot(velocity), acceleration));
     }

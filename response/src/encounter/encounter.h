@@ -33,7 +33,8 @@ class Encounter {
              double h, const Vector2& eased = Vector2::Zero());
   /// Ends the approach to walls where it is now.
   void settle(Effort effort = Effort::as_set);
-  /// When a wall has to be answered or checked next, s from the step's start; `until` if not before.
+  /// When a wall has to be answered or checked next, s from the step's start; `until` if not
+  /// before.
   double nextLook(double until);
   /// Free flight.
   void advanceTo(double time);

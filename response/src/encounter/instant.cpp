@@ -52,7 +52,8 @@ Settled Instant::settle(double time, Effort effort) {
     const Overlap& overlap = next.wall->overlap;
     const bool slides = time > 0.0 && overlap.byEnd && overlap.depth > freshDepth &&
                         next.at.speed <= vehicle_.gapAcceleration() * step_ / looksInStep;
-    const bool tooMany = effort == Effort::plastic || count >= plasticAfter || (!slides && answers_ >= plasticInStepAfter);
+    const bool tooMany = effort == Effort::plastic || count >= plasticAfter ||
+                         (!slides && answers_ >= plasticInStepAfter);
     Rebound rebound = slides ? Rebound::elastic : Rebound::as_set;
     if (tooMany) rebound = Rebound::none;
     answer(next, time, rebound);

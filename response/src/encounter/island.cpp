@@ -241,9 +241,8 @@ void Island::answer(Pair& pair, double time, Rebound rebound) {
   impact.response = respondTo(pair.contact, first.body, second.body, *settings, rebound);
   const PlanarImpulse& whole = impact.response.impulse;
   const auto act = [&](int number, const PairFrame& frame, const Vector2& arm, double sign) {
-    const PlanarImpulse own{
-        .linear = sign * Placement({}, frame.yaw).turnedBack(whole.linear),
-        .angular = sign * cross(arm, whole.linear)};
+    const PlanarImpulse own{.linear = sign * Placement({}, frame.yaw).turnedBack(whole.linear),
+                            .angular = sign * cross(arm, whole.linear)};
     Member& each = member(number);
     each.encounter->participant().body.apply(own);
     each.impulse += own;

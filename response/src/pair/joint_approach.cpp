@@ -16,8 +16,8 @@ constexpr double dependent = 1e-11;
 double separatingSpeed(std::span<const PlanarBody> bodies, const JointContact& contact) {
   double speed = contact.normal.dot(velocityAt(bodies[contact.body].motion, contact.arm));
   if (contact.otherBody != JointContact::none) {
-    speed += contact.otherNormal.dot(
-        velocityAt(bodies[contact.otherBody].motion, contact.otherArm));
+    speed +=
+        contact.otherNormal.dot(velocityAt(bodies[contact.otherBody].motion, contact.otherArm));
   }
   return speed;
 }

@@ -40,10 +40,10 @@ class JointApproach {
   bool factorise(std::span<const PlanarBody> bodies, std::span<const JointContact> contacts);
 
   std::vector<double> impulses_;
-  std::vector<double> speeds_;       // at which each contact separates before
-  std::vector<bool> isUseless_;      // depends on active ones
+  std::vector<double> speeds_;   // at which each contact separates before
+  std::vector<bool> isUseless_;  // depends on active ones
   std::vector<std::size_t> active_;
-  std::vector<double> factor_;       // of the active contacts' couplings, Cholesky, row by row
+  std::vector<double> factor_;  // of the active contacts' couplings, Cholesky, row by row
   std::vector<double> wanted_;
   std::vector<PlanarBody> bodies_;
 };

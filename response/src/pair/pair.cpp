@@ -45,8 +45,22 @@ std::optional<PairHit> respondPair(const PairState& first, const PairState& seco
   const PairBody other = bodyOf(second);
   if (!comesBefore(other.body, own.body)) return respondInOrder(own, other, settings, h);
   std::optional<PairHit> hit = respondInOrder(other, own, settings, h);
-  if (hit) *hit = asSeenByOther(*hit, advanced(first.motion, hit->time));
+  if (hit) *hit = asSeenByOther(*hit);
   return hit;
+}
+
+PairHit asSeenByOther(const PairHit& hit) {
+  PairHit other = hit;
+  other.impact.normal = -hit.impact.normal;
+  other.impact.arm = hit.impact.otherArm;
+  other.impact.otherArm = hit.impact.arm;
+  const Vector2 linear = -hit.response.impulse.linear;
+  other.response.impulse = {.linear = linear, .angular = cross(other.impact.arm, linear)};
+  other.response.before = hit.response.otherBefore;
+  other.response.after = hit.response.otherAfter;
+  other.response.otherBefore = hit.response.before;
+  other.response.otherAfter = hit.response.after;
+  return other;
 }
 
 }  // namespace bumper

@@ -84,8 +84,7 @@ PairContact pairContact(const PairBody& first, const PairBody& second, double pe
   contact.otherArm = contact.point - (isDeep ? otherAt.position : others.position);
   contact.ends = overlap.endsAlong(turnedLeft(contact.normal));
   for (Vector2& end : contact.ends) end = placeNow(end);
-  const Vector2 closing =
-      velocityAt(others, contact.otherArm) - velocityAt(motion, contact.arm);
+  const Vector2 closing = velocityAt(others, contact.otherArm) - velocityAt(motion, contact.arm);
   contact.speed = closing.dot(contact.normal);
   const double way = sliver * contact.speed * time;
   const auto [low, high] = overlap.endsAlong(contact.normal);

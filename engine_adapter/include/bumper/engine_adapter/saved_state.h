@@ -23,10 +23,16 @@ struct PassableWall {
   double depth = 0.0;                                ///< penetration that the pulse allows, m
 };
 
+/// What a vehicle is in contact with: a barrier, or another vehicle, registered later.
+struct ContactPartner {
+  BarrierId barrier{};
+  VehicleId vehicle{};
+  bool operator==(const ContactPartner&) const = default;
+};
+
 /// A contact that has begun and not ended.
 struct SustainedContact {
-  BarrierId barrier;
-  VehicleId vehicle;  ///< instead of a barrier: another one, registered later
+  ContactPartner with{};
   int wall = 0;  ///< number of the wall in the barrier that was touched last
   double begun = 0.0;
   double last = 0.0;
@@ -65,7 +71,7 @@ struct Expectation {
 
 /// A guard contact of the last step, and its force.
 struct GuardLoad {
-  BarrierId barrier;
+  ContactPartner with{};
   int wall = 0;  ///< number in the barrier
   Eigen::Vector3d contact = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, into the vehicle

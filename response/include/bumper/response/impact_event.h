@@ -19,16 +19,16 @@ enum class EventPhase {
 };
 
 /// One impact of a vehicle on a barrier, or of two vehicles, for applications; the latter is told
-/// once, by the one that was registered first. SI units; vectors in the world frame (right-handed, z up) unless
-/// they say otherwise; yaw rates about the vehicle's own z axis, positive turning left. The names
-/// stay valid as long as the vehicle and the barrier are registered.
+/// once, by the one that was registered first. SI units; vectors in the world frame (right-handed,
+/// z up) unless they say otherwise; yaw rates about the vehicle's own z axis, positive turning
+/// left. The names stay valid as long as the vehicle and the barrier are registered.
 struct ImpactEvent {
   double time = 0.0;  ///< of the impact within its step, counted by the steps taken, s
   EventPhase phase = EventPhase::impact;
   std::string_view vehicle;
   std::string_view barrier;       ///< what it hit; empty if that is …
   std::string_view otherVehicle;  ///< … another vehicle; empty for a barrier
-  int triangle = -1;  ///< in the barrier's own mesh
+  int triangle = -1;              ///< in the barrier's own mesh
   std::string_view material;
 
   Eigen::Vector3d contact = Eigen::Vector3d::Zero();  ///< at mass-centre height

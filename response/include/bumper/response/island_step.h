@@ -34,7 +34,7 @@ struct IslandPair {
 /// An impact of two members, in the plane of the pair, where the first one's position is that at
 /// its time. The second takes the opposite impulse.
 struct PairImpact : StepImpact {
-  int pair = 0;              ///< its number among the pairs
+  int pair = 0;  ///< its number among the pairs
 };
 
 /// One step of vehicles that may hit each other, and of the walls near each of them: all impacts in

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "bumper/response/impact.h"
+#include "bumper/response/outline.h"
 #include "bumper/response/vehicle_parameters.h"
 
 namespace bumper {
@@ -14,8 +15,8 @@ struct PairState {
   PlanarMotion motion;
 };
 
-/// A hit of two vehicles: the first one's impact on the second, in the plane's frame, where both are
-/// at that time. The second takes the opposite impulse.
+/// A hit of two vehicles: the first one's impact on the second, in the plane's frame, where both
+/// are at that time. The second takes the opposite impulse.
 struct PairHit {
   double time = 0.0;  ///< s from the states given
   Impact impact{};
@@ -32,5 +33,17 @@ struct PairHit {
 /// result exactly.
 std::optional<PairHit> respondPair(const PairState& first, const PairState& second,
                                    const ResponseSettings& settings, double h);
+
+/// The same hit with the second vehicle as the first.
+PairHit asSeenByOther(const PairHit& hit);
+
+/// How far two outlines are apart, m, along the side of either that separates them best; negative:
+/// the least depth of their overlap.
+struct PairSeparation {
+  double distance = 0.0;
+  Vector2 normal = Vector2::Zero();  ///< unit, out of the second into the first
+};
+PairSeparation separation(const Outline& first, const Placement& firstAt, const Outline& second,
+                          const Placement& secondAt);
 
 }  // namespace bumper
