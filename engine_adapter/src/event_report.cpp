@@ -120,7 +120,11 @@ void Responder::Implementation::reportPairImpact(const Meeting& meeting, const P
   const ResponseSettings& settings = *settingsOfPair(*vehicle, *other);
   const double when = time + hit.time;
   std::vector<SustainedContact>& contacts = vehicle->memory.contacts;
-  const bool hard = response.approachSpeed > impactSpeed(contacts, with, settings);
+  // A corner that turns along the other's side hits it again and again, ever more softly.
+  const bool goesOn = hitBetween(*vehicle, *other) != nullptr;
+  const double least =
+      goesOn ? impactInContact * settings.restSpeed : impactSpeed(contacts, with, settings);
+  const bool hard = response.approachSpeed > least;
   const Eigen::Vector3d contact = plane.placeOf(impact.point);
   const Eigen::Vector3d normal = plane.toWorld(impact.normal);
   const bool begins = addToContact(contacts,

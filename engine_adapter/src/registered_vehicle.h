@@ -35,7 +35,7 @@ struct Vehicle {
       each->vehicle = id;
       each->passable.reserve(4);
       each->contacts.reserve(4);
-      each->passableVehicles.reserve(4);
+      each->hits.reserve(8);
     }
   }
   ~Vehicle() { Traffic::remove(traveller); }

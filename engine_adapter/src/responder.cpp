@@ -326,8 +326,7 @@ void Responder::removeVehicle(VehicleId vehicle) {
   for (const std::unique_ptr<Vehicle>& other : implementation_->vehicles) {
     if (other == nullptr) continue;
     for (VehicleMemory* memory : {&other->memory, &other->memoryBefore}) {
-      std::erase_if(memory->passableVehicles,
-                    [&](const PassableVehicle& each) { return each.vehicle == vehicle; });
+      std::erase_if(memory->hits, [&](const VehicleHit& each) { return each.vehicle == vehicle; });
       std::erase_if(memory->contacts,
                     [&](const SustainedContact& each) { return each.with.vehicle == vehicle; });
     }
@@ -396,7 +395,7 @@ void Responder::restore(const SavedState& state) {
                     std::to_string(wall.settings));
       }
     }
-    for (const PassableVehicle& other : memory.passableVehicles) {
+    for (const VehicleHit& other : memory.hits) {
       registered(self.vehicles, other.vehicle.value, "vehicle");
     }
     for (const SustainedContact& contact : memory.contacts) {

@@ -111,6 +111,7 @@ struct Responder::Implementation {
   void applyPairImpact(const Meeting& meeting, const PairImpact& each, double h);
   void reportPairImpact(const Meeting& meeting, const PairImpact& each);
   static std::pair<Vehicle*, Vehicle*> inOrderOfIds(Vehicle& a, Vehicle& b);
+  [[nodiscard]] VehicleHit* hitBetween(Vehicle& a, Vehicle& b) const;
   [[nodiscard]] bool isPassing(Vehicle& a, Vehicle& b) const;
   [[nodiscard]] bool isNear(const Vehicle& vehicle, const ContactPartner& with) const;
   [[nodiscard]] bool isNear(const Vehicle& a, const Vehicle& b) const;

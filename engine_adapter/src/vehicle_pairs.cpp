@@ -324,26 +324,39 @@ void Responder::Implementation::applyPairImpact(const Meeting& meeting, const Pa
   };
   act(*meeting.first, meeting.firstFrame, each.impact.arm, 1.0);
   act(*meeting.second, meeting.secondFrame, each.impact.otherArm, -1.0);
-  if (isLong) {
-    auto [early, late] = inOrderOfIds(*meeting.first, *meeting.second);
-    early->memory.passableVehicles.push_back(
-        {.vehicle = late->memory.vehicle, .until = time + each.time + settings.contactTime});
-  }
   reportPairImpact(meeting, each);
+  if (!presses) {
+    VehicleHit* hit = hitBetween(*meeting.first, *meeting.second);
+    if (hit == nullptr) {
+      const auto [early, late] = inOrderOfIds(*meeting.first, *meeting.second);
+      hit = &early->memory.hits.emplace_back(VehicleHit{.vehicle = late->memory.vehicle});
+    }
+    hit->last = time + each.time;
+    if (isLong) hit->passableUntil = time + each.time + settings.contactTime;
+  }
 }
 
 std::pair<Vehicle*, Vehicle*> Responder::Implementation::inOrderOfIds(Vehicle& a, Vehicle& b) {
   return a.memory.vehicle.value < b.memory.vehicle.value ? std::pair(&a, &b) : std::pair(&b, &a);
 }
 
-// Whether a long force pulse between them runs.
-bool Responder::Implementation::isPassing(Vehicle& a, Vehicle& b) const {
+// What the one that was registered first remembers of the other; null: nothing.
+VehicleHit* Responder::Implementation::hitBetween(Vehicle& a, Vehicle& b) const {
   const auto [early, late] = inOrderOfIds(a, b);
   const VehicleId id = late->memory.vehicle;
-  std::erase_if(early->memory.passableVehicles,
-                [this](const PassableVehicle& passable) { return !(time < passable.until); });
-  return std::any_of(early->memory.passableVehicles.begin(), early->memory.passableVehicles.end(),
-                     [id](const PassableVehicle& passable) { return passable.vehicle == id; });
+  std::vector<VehicleHit>& hits = early->memory.hits;
+  std::erase_if(hits, [this](const VehicleHit& hit) {
+    return time >= hit.passableUntil && time > hit.last + contactPause;
+  });
+  const auto hit = std::find_if(hits.begin(), hits.end(),
+                                [id](const VehicleHit& each) { return each.vehicle == id; });
+  return hit != hits.end() ? &*hit : nullptr;
+}
+
+// Whether a long force pulse between them runs.
+bool Responder::Implementation::isPassing(Vehicle& a, Vehicle& b) const {
+  const VehicleHit* const hit = hitBetween(a, b);
+  return hit != nullptr && time < hit->passableUntil;
 }
 
 bool Responder::Implementation::isNear(const Vehicle& a, const Vehicle& b) const {

@@ -27,10 +27,10 @@ constexpr double lookAgainInStep = 0.01;
 // At the time of a touch that was computed they are no further apart, m.
 constexpr double sweptTolerance = 1e-7;
 
-// A pair answered so often at one instant does not rebound any more. After so many answers at one
-// instant for each pair, and in a step for each vehicle, all contacts are solved together.
-constexpr int pairPlasticAfter = 2;
-constexpr int pairTogetherAfter = 3;
+// From so many answers to a pair at one instant on, and in a step for each vehicle, all contacts
+// are solved together. Walls then do not rebound from the next number on.
+constexpr int pairTogetherAfter = 1;
+constexpr int wallsPlasticAfter = 4;
 constexpr int mostInStep = 64;
 
 double shortestPause(const ResponseSettings& settings, double h) {
@@ -183,17 +183,17 @@ void Island::involve(int number, double time) {
 // Ends all approach at one instant: of the vehicles involved, and of those that they touch.
 void Island::settle(double time) {
   for (Pair& pair : pairs_) pair.answers = 0;
-  const int most = pairTogetherAfter * static_cast<int>(std::min<std::size_t>(pairs_.size(), 64));
+  const int most = 4 * static_cast<int>(std::min<std::size_t>(pairs_.size(), 64));
   const int mostAnswers = mostInStep * static_cast<int>(memberCount_);
   for (int count = 0;; ++count) {
     settleWalls(count);
     Pair* pair = fastestPair(time);
     if (pair == nullptr) break;
-    if (count >= most || answers_ >= mostAnswers) {
+    if (pair->answers >= pairTogetherAfter || count >= most || answers_ >= mostAnswers) {
       answerTogether(time);
       break;
     }
-    answer(*pair, time, pair->answers >= pairPlasticAfter ? Rebound::none : Rebound::as_set);
+    answer(*pair, time, Rebound::as_set);
   }
   forgetInstant(time);
 }
@@ -204,7 +204,7 @@ void Island::settleWalls(int answers) {
     if (!each.changed || each.encounter->isHeld()) continue;
     each.changed = false;
     const std::size_t before = each.encounter->instant().impacts().size();
-    each.encounter->settle(answers >= pairPlasticAfter ? Effort::plastic : Effort::as_set);
+    each.encounter->settle(answers >= wallsPlasticAfter ? Effort::plastic : Effort::as_set);
     if (each.encounter->instant().impacts().size() == before) continue;
     for (Pair& pair : pairs_) {
       pair.known &= &member(pair.given.first) != &each && &member(pair.given.second) != &each;

@@ -44,11 +44,12 @@ struct SustainedContact {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
 };
 
-/// Another vehicle, registered later, with which a long force pulse runs: no further impact occurs
-/// until it ends.
-struct PassableVehicle {
+/// Another vehicle, registered later, that was hit of late.
+struct VehicleHit {
   VehicleId vehicle;
-  double until = 0.0;
+  double last = 0.0;  ///< when, at a speed above the settings' rest speed
+  double passableUntil =
+      0.0;  ///< the end of a long force pulse, until which no other impact occurs
 };
 
 /// What the last step() added to a vehicle's bodies, and the chassis' state then.
@@ -87,7 +88,7 @@ struct VehicleMemory {
   LastDelivery delivery;
   Expectation expectation;
   std::vector<PassableWall> passable;
-  std::vector<PassableVehicle> passableVehicles;
+  std::vector<VehicleHit> hits;
   std::vector<SustainedContact> contacts;
   std::vector<GuardLoad> guards;  ///< in a saved state only
 };
