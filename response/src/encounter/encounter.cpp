@@ -38,11 +38,10 @@ StepOutcome Encounter::resolve(const PlanarBody& body, const Outline& outline,
 
 void Encounter::begin(const PlanarBody& body, const Outline& outline,
                       const CollisionStep::Walls& walls, double h, const Vector2& eased) {
-  vehicle_ = {.body = body, .outline = outline};
+  place(body, outline);
   contacts_.begin(walls.segments, walls.surfaces);
   instant_.begin(h);
   step_ = h;
-  time_ = 0.0;
   shift_ = {};
   settled_ = Settled::without_impulse;
   touched_ = nullptr;

@@ -27,8 +27,13 @@ class Encounter {
                                                           const PlanarMotion& after,
                                                           double distance, double h);
 
-  /// The parts of resolve(), for an Island: where the step begins, eased out of what it overlaps
-  /// with `eased` in addition, m/s.
+  /// For an Island: where the vehicle is before it is eased out of others.
+  void place(const PlanarBody& body, const Outline& outline) {
+    vehicle_ = {.body = body, .outline = outline};
+    time_ = 0.0;
+  }
+  /// The parts of resolve(): where the step begins, eased out of what it overlaps with `eased` in
+  /// addition, m/s.
   void begin(const PlanarBody& body, const Outline& outline, const CollisionStep::Walls& walls,
              double h, const Vector2& eased = Vector2::Zero());
   /// Ends the approach to walls where it is now.
@@ -45,6 +50,7 @@ class Encounter {
   [[nodiscard]] StepOutcome finish() const;
 
   [[nodiscard]] double time() const { return time_; }
+  [[nodiscard]] bool wasShifted() const { return !shift_.velocity.isZero(0.0); }
   [[nodiscard]] Participant& participant() { return vehicle_; }
   [[nodiscard]] const Participant& participant() const { return vehicle_; }
   [[nodiscard]] Instant& instant() { return instant_; }

@@ -97,14 +97,17 @@ void Island::begin(std::span<const IslandMember> members, std::span<const Island
     each.involved = each.changed = false;
     each.next = never;
     const IslandMember& given = members[i];
-    each.encounter->begin(freeBody(given.vehicle, given.motion), Outline(given.vehicle),
-                          given.walls, 0.0);
+    each.encounter->place(freeBody(given.vehicle, given.motion), Outline(given.vehicle));
   }
   if (h > 0.0) easeApart();
   for (std::size_t i = 0; i < memberCount_; ++i) {
     const IslandMember& given = members[i];
     members_[i].encounter->begin(freeBody(given.vehicle, given.motion), Outline(given.vehicle),
                                  given.walls, h, members_[i].eased);
+  }
+  for (Pair& pair : pairs_) {
+    pair.known = pair.known && !member(pair.given.first).encounter->wasShifted() &&
+                 !member(pair.given.second).encounter->wasShifted();
   }
 }
 
@@ -113,7 +116,6 @@ void Island::easeApart() {
   constexpr double most = CollisionStep::maxRecoverySpeed;
   for (Pair& pair : pairs_) {
     look(pair, 0.0);
-    pair.known = false;
     const double depth = pair.depth - allowedOverlap;
     if (!(depth > 0.0)) continue;
     const auto& [firstNumber, secondNumber, firstFrame, secondFrame, settings] = pair.given;
@@ -151,6 +153,7 @@ void Island::look(Pair& pair, double time) {
                               .distance;
   pair.known = true;
   pair.touches = distance <= (pair.next == time ? sweptTolerance : touchTolerance);
+  pair.distance = distance;
   pair.depth = std::max(-distance, 0.0);
   if (pair.touches) {
     pair.contact = pairContact(first, second, pair.given.settings->penetrationTime);
@@ -168,6 +171,10 @@ double Island::nextLook(const Pair& pair, double time) const {
     const double pause =
         leastTime(unseenOverlap, pair.contact.speed, gapAcceleration(first, second));
     return time + std::max(pause, shortestPause(*pair.given.settings, step_));
+  }
+  if (from == time && pair.known &&
+      pair.distance > fastestClosing(first, second) * (step_ - from) + sweptTolerance) {
+    return never;
   }
   const double wait = timeOfTouch(first, second, step_ - from);
   return wait < never ? from + wait : never;

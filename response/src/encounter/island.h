@@ -43,6 +43,7 @@ class Island {
     // Where it is now, if known.
     bool known = false;
     bool touches = false;
+    double distance = 0.0;  // m
     double depth = 0.0;
     PairContact contact;
   };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "convex_polygon.h"
+#include "pair_sweep.h"
 
 namespace bumper {
 
@@ -48,9 +49,7 @@ double narrowest(const Outline& outline) {
 PairContact pairContact(const PairBody& first, const PairBody& second, double penetrationTime) {
   const PlanarMotion& motion = first.body.motion;
   const PlanarMotion& others = second.body.motion;
-  const double speed = (motion.velocity - others.velocity).norm() +
-                       std::abs(motion.yawRate) * first.outline.radius() +
-                       std::abs(others.yawRate) * second.outline.radius();
+  const double speed = fastestClosing(first, second);
   const double deepest = 0.5 * std::min(narrowest(first.outline), narrowest(second.outline));
   const double time = std::min(penetrationTime, speed > 0.0 ? deepest / speed : penetrationTime);
   const double grown = 0.5 * std::max(leastEngaged - speed * time, 0.0);

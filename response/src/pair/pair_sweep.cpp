@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "bumper/response/sweep.h"
-#include "convex_polygon.h"
 
 namespace bumper {
 
@@ -16,28 +15,15 @@ namespace {
 constexpr double closed = 1e-11;
 
 // After so many advances the rest is found by interpolation, m away at most.
-constexpr int mostAdvances = 6;
+constexpr int mostAdvances = 4;
 constexpr double nearEnough = 0.05;
+
+// An advance may pass a touch by so much, m: it is then found between both looks. What is no deeper
+// and ends before the next look is none.
+constexpr double unseenTouch = 1e-7;
 
 // Bounds the work where they slide past each other.
 constexpr int mostLooks = 200;
-
-std::array<Vector2, 4> cornersAt(const Outline& outline, const Placement& at) {
-  std::array<Vector2, 4> corners = outline.corners();
-  for (Vector2& corner : corners) corner = at.position + at.turned(corner);
-  return corners;
-}
-
-// Improves `best` by the sides of one outline, as seen from the other's corners.
-void bySides(const Outline& outline, const Placement& at, const std::array<Vector2, 4>& others,
-             double sign, PairSeparation& best) {
-  for (const FaceLine& face : faceLines(outline, at)) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Vector2& corner : others) nearest = std::min(nearest, face.normal.dot(corner));
-    const double distance = nearest - face.offset;
-    if (distance > best.distance) best = {.distance = distance, .normal = sign * face.normal};
-  }
-}
 
 struct PairFlight {
   const PairBody& first;
@@ -48,7 +34,8 @@ struct PairFlight {
                       second.placementAfter(time));
   }
 
-  // For how long they certainly stay apart along a fixed direction that separates them now.
+  // For how long they certainly stay apart, or overlap no deeper than `unseenTouch`, along a fixed
+  // direction that separates them now.
   [[nodiscard]] double apartFor(const PairSeparation& now, double time) const {
     struct Corner {
       double height;
@@ -72,8 +59,8 @@ struct PairFlight {
     const std::array<Corner, 4> below = cornersOf(second);
     for (const Corner& a : cornersOf(first)) {
       for (const Corner& b : below) {
-        wait = std::min(
-            wait, leastTime(a.height - b.height, b.rate - a.rate, a.acceleration + b.acceleration));
+        wait = std::min(wait, leastTime(a.height - b.height + unseenTouch, b.rate - a.rate,
+                                        a.acceleration + b.acceleration));
       }
     }
     return wait;
@@ -106,9 +93,27 @@ struct PairFlight {
 
 PairSeparation separation(const Outline& first, const Placement& firstAt, const Outline& second,
                           const Placement& secondAt) {
+  const PlanRectangle own = first.enlarged(0.0);
+  const PlanRectangle other = second.enlarged(0.0);
+  const Vector2 between = secondAt.position + secondAt.turned(other.middle) - firstAt.position -
+                          firstAt.turned(own.middle);
+  // How the axes of one project on those of the other.
+  const double along = std::abs(firstAt.cosine * secondAt.cosine + firstAt.sine * secondAt.sine);
+  const double across = std::abs(firstAt.cosine * secondAt.sine - firstAt.sine * secondAt.cosine);
   PairSeparation best{.distance = -std::numeric_limits<double>::infinity()};
-  bySides(second, secondAt, cornersAt(first, firstAt), 1.0, best);
-  bySides(first, firstAt, cornersAt(second, secondAt), -1.0, best);
+  const auto consider = [&](const Vector2& axis, double reach) {
+    const double way = axis.dot(between);
+    const double distance = std::abs(way) - reach;
+    if (distance > best.distance) {
+      best = {.distance = distance, .normal = way > 0.0 ? Vector2(-axis) : axis};
+    }
+  };
+  const auto bySides = [&](const Placement& at, const Vector2& half, const Vector2& others) {
+    consider({at.cosine, at.sine}, half.x() + along * others.x() + across * others.y());
+    consider({-at.sine, at.cosine}, half.y() + across * others.x() + along * others.y());
+  };
+  bySides(secondAt, other.half, own.half);
+  bySides(firstAt, own.half, other.half);
   return best;
 }
 
@@ -116,23 +121,34 @@ double timeOfTouch(const PairBody& first, const PairBody& second, double until) 
   const PairFlight flight{.first = first, .second = second};
   double time = 0.0;
   PairSeparation now = flight.at(time);
+  if (now.distance > until * fastestClosing(first, second) + unseenTouch) return never;
   double rate = 0.0;
   for (int look = 0; look < mostLooks; ++look) {
     if (now.distance <= closed) return time;
-    const double wait = flight.apartFor(now, time);
-    if (!(time + wait <= until)) return never;
-    if (look >= mostAdvances && now.distance < nearEnough && rate > 0.0) {
+    double next = time + flight.apartFor(now, time);
+    if (next > until) {
+      // Not even a touch that the advance would pass?
+      if (!(flight.at(until).distance < 0.0)) return never;
+      next = until;
+    } else if (look >= mostAdvances && now.distance < nearEnough && rate > 0.0) {
       const double in = std::min(time + 1.5 * now.distance / rate, until);
       const double depth = -flight.at(in).distance;
       if (depth > 0.0) return flight.touchBetween(time, now.distance, in, depth);
     }
-    const PairSeparation next = flight.at(time + wait);
-    rate = wait > 0.0 ? (now.distance - next.distance) / wait : 0.0;
-    if (!(time + wait > time)) return time;
-    time += wait;
-    now = next;
+    if (!(next > time)) return time;
+    const PairSeparation then = flight.at(next);
+    if (then.distance < 0.0) return flight.touchBetween(time, now.distance, next, -then.distance);
+    rate = (now.distance - then.distance) / (next - time);
+    time = next;
+    now = then;
   }
   return time;
+}
+
+double fastestClosing(const PairBody& first, const PairBody& second) {
+  return (first.body.motion.velocity - second.body.motion.velocity).norm() +
+         std::abs(first.body.motion.yawRate) * first.outline.radius() +
+         std::abs(second.body.motion.yawRate) * second.outline.radius();
 }
 
 double gapAcceleration(const PairBody& first, const PairBody& second) {
