@@ -25,12 +25,17 @@ struct Vehicle {
         envelope(itsParameters, band),
         freeSpace(bodies, envelope, minUprightness) {
     traveller.vehicle = this;
-    traveller.position = dBodyGetPosition(bodies.chassis());
-    traveller.velocity = dBodyGetLinearVel(bodies.chassis());
-    const Eigen::Vector3d chassis(traveller.position[0], traveller.position[1],
-                                  traveller.position[2]);
-    traveller.radius =
-        envelope.outline().radius() + (bodies.readPose().massCentre - chassis).norm();
+    const dBodyID chassis = bodies.chassis();
+    traveller.position = dBodyGetPosition(chassis);
+    traveller.rotation = dBodyGetRotation(chassis);
+    traveller.velocity = dBodyGetLinearVel(chassis);
+    traveller.turning = dBodyGetAngularVel(chassis);
+    const VehiclePose pose = bodies.readPose();
+    const dReal* at = traveller.position;
+    const Eigen::Vector3d away = pose.massCentre - Eigen::Vector3d(at[0], at[1], at[2]);
+    traveller.massCentre = (pose.axes.transpose() * away).head<2>();
+    traveller.outline = envelope.outline();
+    traveller.radius = envelope.outline().radius() + away.norm();
     for (VehicleMemory* each : {&memory, &memoryBefore}) {
       each->vehicle = id;
       each->passable.reserve(4);
@@ -38,7 +43,7 @@ struct Vehicle {
       each->hits.reserve(8);
     }
   }
-  ~Vehicle() { Traffic::remove(traveller); }
+  ~Vehicle() = default;
   Vehicle(const Vehicle&) = delete;
   Vehicle& operator=(const Vehicle&) = delete;
   Vehicle(Vehicle&&) = delete;

@@ -337,6 +337,7 @@ void Responder::removeVehicle(VehicleId vehicle) {
   std::unique_ptr<Vehicle>& place =
       implementation_->vehicles[static_cast<std::size_t>(vehicle.value)];
   place->guards.release();
+  implementation_->traffic.remove(place->traveller);
   place.reset();
 }
 

@@ -40,8 +40,6 @@ struct Responder::Implementation {
   dWorldID world = nullptr;
   ResponderOptions options;
 
-  Traffic traffic;  // vehicles leave it when they are destroyed
-
   // Removed ones leave an empty place, so that an id never means another thing later.
   std::vector<std::unique_ptr<Barrier>> barriers;
   std::vector<std::unique_ptr<Vehicle>> vehicles;
@@ -66,6 +64,7 @@ struct Responder::Implementation {
   CollisionStep collision;
   std::vector<Vehicle*> active;  // a place for every vehicle
   std::size_t activeCount = 0;
+  Traffic traffic;
   std::vector<Traveller*> travellers;
   std::vector<Meeting> meetings;
   std::vector<Vehicle*> inIslands;

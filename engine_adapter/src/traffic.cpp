@@ -2,15 +2,20 @@
 
 #include <algorithm>
 
+#include "bumper/response/pair.h"
 #include "guard_contacts.h"
 
 namespace bumper {
 
 namespace {
 
-// The limit that a vehicle gets: so many times as fast as now, and this more, m/s.
-constexpr double moreSpeed = 1.2;
-constexpr double speedAllowance = 1.0;
+// By how much a vehicle may change its velocity until the next look: a part of its speed, and this
+// more, m/s.
+constexpr double shareAllowed = 0.05;
+constexpr double speedAllowance = 0.5;
+
+// Outlines nearer to each other than this, m, are compared as they lie, others as circles.
+constexpr double nearby = 12.0;
 
 // It is looked at again after this way at the latest, m, so that its cell is right to that.
 constexpr double mostWay = 8.0;
@@ -28,6 +33,22 @@ constexpr double fasterAfterHit = 2.0;
 // The gap that two may close in a step at these speeds or at those after a blow, m.
 double reachOf(double closing, double h) {
   return guardDistance(0.5 * fasterAfterHit * closing, h);
+}
+
+Placement placementOf(const Traveller& traveller) {
+  const double x = traveller.rotation[0];
+  const double y = traveller.rotation[4];
+  const double length = std::hypot(x, y);
+  Placement at;
+  at.cosine = x / length;
+  at.sine = y / length;
+  at.position =
+      Vector2(traveller.position[0], traveller.position[1]) + at.turned(traveller.massCentre);
+  return at;
+}
+
+double gapOf(const Traveller& one, const Traveller& other) {
+  return separation(one.outline, placementOf(one), other.outline, placementOf(other)).distance;
 }
 
 }  // namespace
@@ -57,6 +78,13 @@ void Traffic::add(Traveller& traveller) {
 }
 
 void Traffic::remove(Traveller& traveller) {
+  unlist(traveller);
+  std::erase_if(pairs_, [&](const Pair& pair) {
+    return pair.first == &traveller || pair.second == &traveller;
+  });
+}
+
+void Traffic::unlist(Traveller& traveller) {
   if (!traveller.isListed) return;
   *traveller.link = traveller.next;
   if (traveller.next != nullptr) traveller.next->link = traveller.link;
@@ -70,7 +98,7 @@ void Traffic::place(Traveller& traveller) {
   const long x = cellOf(traveller.x);
   const long y = cellOf(traveller.y);
   if (traveller.isListed && x == traveller.cellX && y == traveller.cellY) return;
-  remove(traveller);
+  unlist(traveller);
   traveller.cellX = x;
   traveller.cellY = y;
   Traveller*& first = bucketOf(x, y);
@@ -85,11 +113,13 @@ void Traffic::refresh(Traveller& traveller, double now) {
   traveller.x = traveller.position[0];
   traveller.y = traveller.position[1];
   traveller.looked = now;
-  const double speed = std::hypot(traveller.velocity[0], traveller.velocity[1]);
-  traveller.speedLimit =
-      speed < mostSpeed ? moreSpeed * speed + speedAllowance : moreSpeed * mostSpeed;
-  traveller.companySpeed = traveller.speedLimit;
-  traveller.apartUntil = now + mostWay / traveller.speedLimit;
+  traveller.velocityX = traveller.velocity[0];
+  traveller.velocityY = traveller.velocity[1];
+  traveller.yawRate = traveller.turning[2];
+  const double speed = std::min(std::hypot(traveller.velocityX, traveller.velocityY), mostSpeed);
+  traveller.allowance = shareAllowed * speed + speedAllowance;
+  traveller.companySpeed = speed + traveller.allowance;
+  traveller.apartUntil = now + mostWay / traveller.companySpeed;
   place(traveller);
 }
 
@@ -102,10 +132,15 @@ void Traffic::enqueue(Traveller& traveller) {
 // The time that two need not be looked at; or, if they may meet in this step, that they may, and
 // that the faster one may set the other moving.
 void Traffic::meet(Traveller& one, Traveller& other, double now, double h) {
-  const double gap =
-      std::hypot(one.position[0] - other.position[0], one.position[1] - other.position[1]) -
-      one.radius - other.radius - margin;
-  const double closing = one.speedLimit + other.speedLimit;
+  const double x = one.position[0] - other.position[0];
+  const double y = one.position[1] - other.position[1];
+  const double circles = std::hypot(x, y) - one.radius - other.radius;
+  const double gap = (circles < nearby ? std::max(circles, gapOf(one, other)) : circles) - margin;
+  const double spins = (std::abs(one.yawRate) + turningAllowance) * one.radius +
+                       (std::abs(other.yawRate) + turningAllowance) * other.radius;
+  const double closing =
+      std::hypot(one.velocityX - other.velocityX, one.velocityY - other.velocityY) + one.allowance +
+      other.allowance + spins;
   const double until = now + std::max(gap, 0.0) / closing;
   one.apartUntil = std::min(one.apartUntil, until);
   other.apartUntil = std::min(other.apartUntil, until);
@@ -121,6 +156,9 @@ void Traffic::meet(Traveller& one, Traveller& other, double now, double h) {
 }
 
 void Traffic::look(std::span<Traveller* const> some, double now, double h) {
+  for (const Pair& pair : pairs_) {
+    pair.first->companySpeed = pair.second->companySpeed = 0.0;
+  }
   pairs_.clear();
   queue_.clear();
   for (Traveller* each : some) {
@@ -137,14 +175,13 @@ void Traffic::look(std::span<Traveller* const> some, double now, double h) {
         for (Traveller* other = bucketOf(x, y); other != nullptr; other = other->next) {
           if (other == &one || other->cellX != x || other->cellY != y) continue;
           // Its company is that of this step.
-          if (other->companySpeed < other->speedLimit) other->companySpeed = other->speedLimit;
+          other->companySpeed =
+              std::max(other->companySpeed,
+                       std::hypot(other->velocityX, other->velocityY) + other->allowance);
           meet(one, *other, now, h);
         }
       }
     }
-  }
-  for (const Pair& pair : pairs_) {
-    pair.first->companySpeed = pair.second->companySpeed = 0.0;
   }
   std::sort(pairs_.begin(), pairs_.end());
   pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
