@@ -79,6 +79,21 @@ Hit turned(Hit hit, double angle) {
   return hit;
 }
 
+Vector2 flipped(const Vector2& vector) { return {vector.x(), -vector.y()}; }
+
+/// In a mirror that turns left into right; of a wall the ends change places.
+Hit mirrored(Hit hit) {
+  for (Segment& wall : hit.walls) {
+    std::swap(wall.start, wall.end);
+    for (Vector2* each : {&wall.start, &wall.end, &wall.normal}) *each = flipped(*each);
+  }
+  hit.motion.position = flipped(hit.motion.position);
+  hit.motion.velocity = flipped(hit.motion.velocity);
+  hit.motion.yaw = -hit.motion.yaw;
+  hit.motion.yawRate = -hit.motion.yawRate;
+  return hit;
+}
+
 /// The same walls in another order, some from their other end.
 Hit reordered(Hit hit, Random& random) {
   for (std::size_t i = hit.walls.size(); i > 1; --i)
@@ -174,6 +189,18 @@ TEST(SceneSymmetry, TheTurnedSceneHasTheTurnedAnswer) {
     turn.add(i, hit, answer, seen);
   });
   turn.expectSame("turned", mostTies);
+}
+
+TEST(SceneSymmetry, TheMirroredSceneHasTheMirroredAnswer) {
+  CollisionStep collision;
+  Comparison mirror;
+  forEachHit(collision, [&](int i, const Hit& hit, const Answer& answer) {
+    Answer seen = answerTo(collision, mirrored(hit));
+    seen.velocity = flipped(seen.velocity);
+    seen.yawRate = -seen.yawRate;
+    mirror.add(i, hit, answer, seen);
+  });
+  mirror.expectSame("mirrored", mostTies);
 }
 
 TEST(SceneSymmetry, TheOrderOfTheWallsDoesNotMatter) {

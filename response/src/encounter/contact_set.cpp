@@ -42,10 +42,10 @@ bool leadsUpFrom(const Manifold& wall, const Overlap& front) {
 }  // namespace
 
 std::optional<Vector2> endAt(const Segment& wall, const Vector2& place) {
-  for (const Vector2& end : {wall.start, wall.end}) {
-    if ((end - place).norm() <= jointWidth) return end;
-  }
-  return std::nullopt;
+  const double toStart = (wall.start - place).norm();
+  const double toEnd = (wall.end - place).norm();
+  if (std::min(toStart, toEnd) > jointWidth) return std::nullopt;
+  return toStart < toEnd ? wall.start : wall.end;
 }
 
 void ContactSet::begin(std::span<const Segment> segments, std::span<const Surface> surfaces) {

@@ -39,7 +39,7 @@ struct Manifold {
   Answer answered{};
 };
 
-/// The end of a wall that meets a place; none if neither does.
+/// The end of a wall that meets a place, the nearer one if both do; none if neither does.
 std::optional<Vector2> endAt(const Segment& wall, const Vector2& place);
 
 /// The walls near a vehicle, merged, and how its outline touches them where it is now.

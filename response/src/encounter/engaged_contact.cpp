@@ -100,8 +100,8 @@ class Chain {
     return next;
   }
 
-  // Calls with each wall that has an end within jointWidth of the way's place, that end, and the
-  // other one.
+  // Calls with each wall that has an end within jointWidth of the way's place, the nearer one if
+  // both are, that end, and the other one.
   template <typename Call>
   void forEachEnd(const Way& way, const Call& call) const {
     for (const Manifold& wall : contacts_.all()) {
@@ -109,8 +109,12 @@ class Chain {
       const Segment& segment = wall.segment;
       const double toStart = (segment.start - way.place).norm();
       const double toEnd = (segment.end - way.place).norm();
-      if (toStart <= jointWidth) call(wall, toStart, segment.start, segment.end);
-      if (toEnd <= jointWidth) call(wall, toEnd, segment.end, segment.start);
+      if (std::min(toStart, toEnd) > jointWidth) continue;
+      if (toStart < toEnd) {
+        call(wall, toStart, segment.start, segment.end);
+      } else {
+        call(wall, toEnd, segment.end, segment.start);
+      }
     }
   }
 

@@ -22,6 +22,9 @@ constexpr int plasticAfter = 8;
 constexpr int togetherAfter = 16;
 constexpr int plasticInStepAfter = 40;
 
+// Times that differ by less, s, do so by rounding.
+constexpr double atOnceTime = 1e-12;
+
 // Solved together are the last impacts of a step, and those before which as many were not.
 constexpr int mostTogether = (maxAnswers - 1) / (togetherAfter + 1) + 1;
 static_assert(CollisionStep::maxImpacts ==
@@ -62,20 +65,25 @@ Settled Instant::settle(double time) {
   }
 }
 
-// Of the walls that have had no impulse yet the one that was touched the longest time ago.
+// Of the walls that have had no impulse yet the one that was touched the longest time ago; of walls
+// that were touched at once, as at a vertex, the one that faces the outline the most.
 Instant::Next Instant::firstNewWall() {
   Next next;
   double longest = -1.0;
+  double mostFacing = 0.0;
   for (Manifold& wall : contacts_.all()) {
     if (!wall.touched || wall.hidden || wall.struck || wall.passed) continue;
     const Approach first = contacts_.touching(wall);
     if (first.speed <= restTolerance) continue;
     const double since = ContactSet::sinceTouch(wall, first.speed);
-    if (since <= longest) continue;
+    const double facing = std::abs(wall.segment.normal.dot(first.normal));
+    const bool atOnce = std::abs(since - longest) <= atOnceTime;
+    if (atOnce ? facing <= mostFacing : since < longest) continue;
     wall.answered = contacts_.answerTo(wall, first);
     const Approach& at = wall.answered.at;
     if (wall.answered.yields && at.speed <= restTolerance) continue;
     longest = since;
+    mostFacing = facing;
     next = {.wall = &wall, .at = at.speed > restTolerance ? at : first};
   }
   return next;
