@@ -80,11 +80,12 @@ Instant::Next Instant::firstNewWall() {
     const bool atOnce = std::abs(since - longest) <= atOnceTime;
     if (atOnce ? facing <= mostFacing : since < longest) continue;
     wall.answered = contacts_.answerTo(wall, first);
-    const Approach& at = wall.answered.at;
-    if (wall.answered.yields && at.speed <= restTolerance) continue;
+    Approach at = wall.answered.at;
+    if (at.speed <= restTolerance && wall.answered.yielding == 0.0) at = first;
+    if (!wall.answered.meets || at.speed <= restTolerance) continue;
     longest = since;
     mostFacing = facing;
-    next = {.wall = &wall, .at = at.speed > restTolerance ? at : first};
+    next = {.wall = &wall, .at = at};
   }
   return next;
 }
@@ -100,7 +101,7 @@ Instant::Next Instant::fastestStruckWall() {
     };
     const Approach& answered = wall.answered.at;
     consider(contacts_.approach(answered.contact, answered.normal));
-    if (!wall.answered.yields) consider(contacts_.touching(wall));
+    consider(contacts_.touching(wall, wall.answered));
   }
   return next;
 }
@@ -134,7 +135,7 @@ void Instant::answerTogether(double time) {
       owners[count++] = {.wall = &wall, .at = at};
     };
     const Answer answer = contacts_.answerTo(wall, contacts_.touching(wall));
-    if (answer.yields) {
+    if (answer.yielding > 0.0) {
       if (answer.meets) add(answer.at);
       continue;
     }
