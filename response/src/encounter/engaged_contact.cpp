@@ -89,13 +89,14 @@ class Chain {
     // Not one that lies on the last one again; of a vertex that is touched, not one of the other
     // way.
     const double most = way.touched == nullptr ? std::numbers::pi - inLine : 0.5 * std::numbers::pi;
+    const double least = way.last != nullptr ? -std::numbers::pi : -0.5 * std::numbers::pi;
     Next next;
     forEachEnd(
         way, [&](const Manifold& wall, double distance, const Vector2& from, const Vector2& to) {
           if (distance > nearest && &wall != way.touched) return;
           const Vector2 along = (to - from).normalized();
           const double turn = std::atan2(way.side * cross(way.along, along), way.along.dot(along));
-          if (turn > next.turn && turn <= most) next = {&wall, to, along, turn};
+          if (turn > next.turn && turn >= least && turn <= most) next = {&wall, to, along, turn};
         });
     return next;
   }
