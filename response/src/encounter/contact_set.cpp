@@ -88,7 +88,7 @@ void ContactSet::setOverlap(Manifold& wall, const std::optional<Overlap>& overla
   if (overlap) {
     wall.overlap = *overlap;
   } else {
-    wall.answered = {};
+    wall.answered.yielding = 0.0;
   }
 }
 

@@ -92,25 +92,25 @@ void WallMerge::join(Segment& wall, std::span<const Surface> surfaces) {
   const Vector2 tangent = turnedLeft(wall.normal);
   const Vector2 origin = wall.start;
   double low = 0.0;
-  double high = tangent.dot(wall.end - origin);
-  const auto joins = [&](Ordered& each) {
-    if (each.merged) return false;
+  const double length = tangent.dot(wall.end - origin);
+  double high = length;
+  bool grows = false;
+  const auto add = [&](Ordered& each) {
     const Segment& piece = oriented_[each.piece];
-    if (!continues(wall, piece, surfaces)) return false;
-    each.merged = true;
+    if (each.merged || !continues(wall, piece, surfaces)) return;
+    each.merged = grows = true;
     // On the line itself: a touch is looked for along the line, and found at the segment.
-    const double start = tangent.dot(piece.start - origin);
-    const double end = tangent.dot(piece.end - origin);
-    if (start < low) wall.start = origin + (low = start) * tangent;
-    if (end > high) wall.end = origin + (high = end) * tangent;
-    return true;
+    low = std::min(low, tangent.dot(piece.start - origin));
+    high = std::max(high, tangent.dot(piece.end - origin));
+    if (low < 0.0) wall.start = origin + low * tangent;
+    if (high > length) wall.end = origin + high * tangent;
   };
   // In order, so that once there and back is enough for a row.
-  std::ptrdiff_t joined = 0;
   do {
-    joined = std::count_if(order_.begin(), order_.end(), joins);
-    joined += std::count_if(order_.rbegin(), order_.rend(), joins);
-  } while (joined > 0);
+    grows = false;
+    std::for_each(order_.begin(), order_.end(), add);
+    std::for_each(order_.rbegin(), order_.rend(), add);
+  } while (grows);
 }
 
 int WallMerge::pieceAt(const Segment& merged, const Vector2& point) const {
