@@ -20,6 +20,9 @@ constexpr int plasticAfter = 8;
 constexpr int togetherAfter = 16;
 constexpr int plasticInStepAfter = 40;
 
+// Times that differ by less, s, do so by rounding.
+constexpr double atOnceTime = 1e-12;
+
 // Solved together are the last impacts of a step, and those before which as many were not.
 constexpr int mostTogether = (maxAnswers - 1) / (togetherAfter + 1) + 1;
 static_assert(CollisionStep::maxImpacts ==
@@ -61,21 +64,27 @@ Settled Instant::settle(double time, Effort effort) {
   }
 }
 
-// Of the walls that have had no impulse yet the one that was touched the longest time ago.
+// Of the walls that have had no impulse yet the one that was touched the longest time ago; of walls
+// that were touched at once, as at a vertex, the one that faces the outline the most.
 Instant::Next Instant::firstNewWall() {
   Next next;
   double longest = -1.0;
+  double mostFacing = 0.0;
   for (Manifold& wall : contacts_.all()) {
     if (!wall.touched || wall.hidden || wall.struck || wall.passed) continue;
     const Approach first = contacts_.touching(wall);
     if (first.speed <= restTolerance) continue;
     const double since = ContactSet::sinceTouch(wall, first.speed);
-    if (since <= longest) continue;
+    const double facing = std::abs(wall.segment.normal.dot(first.normal));
+    const bool atOnce = std::abs(since - longest) <= atOnceTime;
+    if (atOnce ? facing <= mostFacing : since < longest) continue;
     wall.answered = contacts_.answerTo(wall, first);
-    const Approach& at = wall.answered.at;
-    if (wall.answered.yields && at.speed <= restTolerance) continue;
+    Approach at = wall.answered.at;
+    if (at.speed <= restTolerance && wall.answered.yielding == 0.0) at = first;
+    if (!wall.answered.meets || at.speed <= restTolerance) continue;
     longest = since;
-    next = {.wall = &wall, .at = at.speed > restTolerance ? at : first};
+    mostFacing = facing;
+    next = {.wall = &wall, .at = at};
   }
   return next;
 }
@@ -91,7 +100,7 @@ Instant::Next Instant::fastestStruckWall() {
     };
     const Approach& answered = wall.answered.at;
     consider(contacts_.approach(answered.contact, answered.normal));
-    if (!wall.answered.yields) consider(contacts_.touching(wall));
+    consider(contacts_.touching(wall, wall.answered));
   }
   return next;
 }
@@ -120,7 +129,7 @@ std::span<const TouchingPoint> Instant::touchingPoints() {
       owners_[count++] = {.wall = &wall, .at = at};
     };
     const Answer answer = contacts_.answerTo(wall, contacts_.touching(wall));
-    if (answer.yields) {
+    if (answer.yielding > 0.0) {
       if (answer.meets) add(answer.at);
       continue;
     }
