@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -17,10 +18,11 @@ namespace bumper {
 /// A registered vehicle: its data, its surroundings, and its state kept from step to step.
 struct Vehicle {
   Vehicle(VehicleId id, const VehicleParameters& itsParameters, const Band& band, double tiltLimit,
-          std::string itsName, VehicleBodies itsBodies)
+          std::string itsName, VehicleBodies itsBodies, Mover itsMover)
       : parameters(itsParameters),
         name(std::move(itsName)),
         bodies(std::move(itsBodies)),
+        mover(itsMover),
         minUprightness(std::cos(tiltLimit)),
         envelope(itsParameters, band),
         freeSpace(bodies, envelope, minUprightness) {
@@ -65,6 +67,7 @@ struct Vehicle {
   VehicleParameters parameters;
   std::string name;
   VehicleBodies bodies;
+  Mover mover;
   double minUprightness;
   Envelope envelope;
   FreeSpace freeSpace;
@@ -93,6 +96,11 @@ struct Vehicle {
   /// read.
   [[nodiscard]] VehicleParameters parametersNow() const {
     VehicleParameters result = parameters;
+    if (mover == Mover::other_host) return result;
+    if (mover == Mover::application) {
+      result.mass = result.yawInertia = std::numeric_limits<double>::infinity();
+      return result;
+    }
     result.mass = reading.state.mass;
     result.yawInertia = reading.state.yawInertia;
     return result;

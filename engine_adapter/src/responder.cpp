@@ -237,7 +237,7 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
     if (dBodyGetWorld(bodies[i]) != self.world) {
       throw Error("addVehicle: " + what + " belongs to another world");
     }
-    if (dBodyIsKinematic(bodies[i]) != 0) {
+    if (options.mover == Mover::world && dBodyIsKinematic(bodies[i]) != 0) {
       throw Error("addVehicle: " + what + " is kinematic: no force moves it");
     }
     const auto end = bodies.begin() + static_cast<std::ptrdiff_t>(i);
@@ -260,14 +260,16 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
 
   const VehicleBodies vehicleBodies(bodies);
   const VehicleState state = vehicleBodies.read();
-  requireClose(state.mass, parameters.mass, massTolerance, "mass", "kg");
-  requireClose(state.yawInertia, parameters.yawInertia, inertiaTolerance, "yaw inertia", "kg m²");
+  if (options.mover == Mover::world) {
+    requireClose(state.mass, parameters.mass, massTolerance, "mass", "kg");
+    requireClose(state.yawInertia, parameters.yawInertia, inertiaTolerance, "yaw inertia", "kg m²");
+  }
 
   const int id = static_cast<int>(self.vehicles.size());
   const std::string name =
       options.name.empty() ? "vehicle " + std::to_string(id) : std::string(options.name);
   auto vehicle = std::make_unique<Vehicle>(VehicleId{id}, parameters, band, options.tiltLimit, name,
-                                           vehicleBodies);
+                                           vehicleBodies, options.mover);
   self.warnings.drop(nullptr);
   if (std::optional<std::string> text = warningOf(self.world)) self.warnings.add(nullptr, *text);
   for (std::string& text : warningsOf(vehicleBodies, parameters, band, name)) {

@@ -18,10 +18,14 @@ namespace bumper {
 namespace {
 
 // The vehicle in its own frame, with the velocity that it has in this step without walls: ODE moves
-// it with the velocity that the forces lead to. The paper takes the velocity as it is.
-PlanarMotion motionOf(const VehicleState& state, const ForcePulse& pulse, Method method, double h) {
-  const double ahead = method == Method::paper ? 0.0 : h;
-  const PlanarImpulse due = pulse.due(h);
+// it with the velocity that the forces lead to. The paper takes the velocity as it is, and so does
+// what the application moves.
+PlanarMotion motionOf(const Vehicle& vehicle, Method method, double h) {
+  const VehicleState& state = vehicle.reading.state;
+  if (vehicle.reading.isAsleep) return {};
+  const bool asItIs = method == Method::paper || vehicle.mover != Mover::world;
+  const double ahead = asItIs ? 0.0 : h;
+  const PlanarImpulse due = vehicle.memory.pulse.due(h);
   const Eigen::Vector3d velocity = state.velocity + ahead * state.acceleration;
   PlanarMotion motion;
   motion.velocity = (state.axes.transpose() * velocity).head<2>() + due.linear / state.mass;
@@ -52,7 +56,7 @@ std::span<const ImpactEvent> Responder::step(double h) {
   self.activeCount = 0;
   for (const std::unique_ptr<Vehicle>& vehicle : self.vehicles) {
     if (vehicle == nullptr) continue;
-    vehicle->isFar = vehicle->freeSpace.holds(h);
+    vehicle->isFar = vehicle->mover != Mover::world || vehicle->freeSpace.holds(h);
     vehicle->isAlone = !hasPairs || Traffic::isApart(vehicle->traveller, self.time, h);
     vehicle->isActive = !vehicle->isFar || !vehicle->isAlone;
     if (vehicle->isActive) self.active[self.activeCount++] = vehicle.get();
@@ -99,13 +103,14 @@ void Responder::Implementation::read(Vehicle& vehicle, double h) {
   vehicle.reading.takesPart = false;
   if (!vehicle.isFar) vehicle.freeSpace.leave();
   const Expectation expected = std::exchange(memory.expectation, {});
-  vehicle.reading.isAsleep = vehicle.bodies.areAsleep() && !hasJointWithBody(vehicle.bodies);
+  vehicle.reading.isAsleep = vehicle.mover == Mover::world && vehicle.bodies.areAsleep() &&
+                             !hasJointWithBody(vehicle.bodies);
   if (vehicle.reading.isAsleep && !vehicle.hasCompany) {
     vehicle.guards.forget();
     return;
   }
   const VehicleState& state = vehicle.reading.state = vehicle.bodies.read();
-  const bool isKinematic = vehicle.bodies.anyKinematic();
+  const bool isKinematic = vehicle.mover == Mover::world && vehicle.bodies.anyKinematic();
   if (isKinematic || !state.isFinite()) {
     vehicle.issues |= isKinematic ? step_issue::kinematic : step_issue::not_finite;
     memory.pulse.drop();
@@ -129,11 +134,10 @@ void Responder::Implementation::read(Vehicle& vehicle, double h) {
   }
   if (vehicle.isFar && !vehicle.hasCompany) return;
   vehicle.reading.takesPart = true;
-  vehicle.reading.isHeld = isUpright && hasOuterJoint(vehicle.bodies);
+  vehicle.reading.isHeld =
+      isUpright && vehicle.mover == Mover::world && hasOuterJoint(vehicle.bodies);
   if (isUpright) {
-    vehicle.reading.motion = vehicle.reading.isAsleep
-                                 ? PlanarMotion{}
-                                 : motionOf(state, memory.pulse, options.response.method, h);
+    vehicle.reading.motion = motionOf(vehicle, options.response.method, h);
     if (vehicle.isFar) {
       vehicle.nearby.clear();
     } else {

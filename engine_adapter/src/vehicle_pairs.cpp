@@ -105,7 +105,7 @@ void Responder::Implementation::findIslands(double h) {
     Vehicle* first = one->vehicle;
     Vehicle* second = other->vehicle;
     if (!first->reading.takesPart || !second->reading.takesPart || !first->isUpright() ||
-        !second->isUpright()) {
+        !second->isUpright() || (first->mover != Mover::world && second->mover != Mover::world)) {
       continue;
     }
     if (comesBefore(second, first)) std::swap(first, second);
@@ -237,6 +237,7 @@ void Responder::Implementation::solveIsland(std::span<Vehicle* const> members, d
   for (std::size_t i = 0; i < members.size(); ++i) {
     Vehicle& vehicle = *members[i];
     const StepOutcome& outcome = islandOutcomes[i];
+    if (vehicle.mover != Mover::world) continue;
     if (!vehicle.reading.isAsleep || vehicle.isHit || !outcome.shift.velocity.isZero()) {
       applyOutcome(vehicle, outcome, h);
     }
@@ -310,6 +311,7 @@ void Responder::Implementation::applyPairImpact(const Meeting& meeting, const Pa
   const bool presses = each.response.approachSpeed < impactInContact * settings.restSpeed;
   const bool isLong = settings.contactTime > 0.0 && !presses;
   const auto act = [&](Vehicle& vehicle, const PairFrame& frame, const Vector2& arm, double sign) {
+    if (vehicle.mover != Mover::world) return;
     const Vector2 linear = sign * each.response.impulse.linear;
     const PlanarImpulse own{.linear = Placement({}, frame.yaw).turnedBack(linear),
                             .angular = cross(arm, linear)};

@@ -368,6 +368,121 @@ TEST(Vehicles, ThatWereRemovedAreHitNoMore) {
   EXPECT_EQ(park.responder.issues(), step_issue::none);
 }
 
+// A body that the application moves, as a gate is: 6 m wide, 0.2 m thick, across the x axis.
+class Gate {
+ public:
+  Gate(CarPark& park, Mover mover, double mass = 1500.0)
+      : park_(park), body(dBodyCreate(park.ode.world)) {
+    dBodySetKinematic(body);
+    const VehicleParameters outline{.mass = mass,
+                                    .yawInertia = 2600.0 / 1500.0 * mass,
+                                    .massCentreToFront = 0.1,
+                                    .massCentreToRear = 0.1,
+                                    .width = 6.0,
+                                    .massCentreHeight = 0.55};
+    dBodySetPosition(body, -3.0, 0.0, 0.55);
+    id = park.responder.addVehicle(body, outline, {.name = "gate", .mover = mover});
+  }
+  void move(double speed) { dBodySetLinearVel(body, speed, 0.0, 0.0); }
+
+ private:
+  CarPark& park_;
+
+ public:
+  dBodyID body;
+  VehicleId id;
+};
+
+TEST(Vehicles, AGatePushesACarNoFasterThanItself) {
+  for (const double h : {0.001, 0.005, 0.02}) {
+    CarPark park;
+    BoxCar& car = park.add({2.5 + 0.1, 0.4}, 0.0, {0.0, 0.0});
+    Gate gate(park, Mover::application);
+    gate.move(1.0);
+    double fastest = 0.0;
+    for (int i = 0; i < std::lround(8.0 / h); ++i) {
+      park.run(h, h);
+      fastest = std::max(fastest, car.velocity().x());
+    }
+    EXPECT_LE(fastest, 1.3 + 1e-9) << h;
+    EXPECT_GE(car.velocity().x(), 0.9) << h;
+    const double gap = dBodyGetPosition(car.body)[0] - 2.5 - dBodyGetPosition(gate.body)[0] - 0.1;
+    EXPECT_GE(gap, -1e-3) << h;
+    EXPECT_NEAR(dBodyGetLinearVel(gate.body)[0], 1.0, 0.0) << h;
+  }
+}
+
+TEST(Vehicles, ACarHitsAGateAsItHitsAWallThatMoves) {
+  CarPark park({.vehicleResponse = bouncing(0.3, 0.0)});
+  BoxCar& car = park.add({20.0, 0.0}, pi, {-10.0, 0.0});
+  Gate gate(park, Mover::application);
+  gate.move(5.0);
+  ImpactEvent event;
+  park.run(2.0, 0.005, [&](std::span<const ImpactEvent> events) {
+    if (!events.empty()) event = events.front();
+  });
+  // 5 + 0.3 · 15
+  EXPECT_NEAR(car.velocity().x(), 9.5, 1e-9);
+  EXPECT_NEAR(event.approachSpeed, 15.0, 1e-9);
+  EXPECT_EQ(event.otherVehicle, "gate");
+  EXPECT_EQ(dBodyGetLinearVel(gate.body)[0], 5.0);
+}
+
+// Two hosts with a car each: either sees its own and the other's, and both get what one host with
+// both cars gets.
+TEST(Vehicles, TwoHostsAgree) {
+  CarPark both;
+  both.add({0.0, 0.1}, 0.3, {15.0, 0.0}, 0.4);
+  both.add({9.0, 0.6}, 2.4, {-5.0, 0.0});
+  constexpr double h = 0.005;
+  std::array<CarPark, 2> hosts;
+  std::array<dBodyID, 2> remote{};
+  for (std::size_t host = 0; host < hosts.size(); ++host) {
+    CarPark& park = hosts[host];
+    for (std::size_t car = 0; car < 2; ++car) {
+      const BoxCar& original = *both.cars[car];
+      const dReal* p = dBodyGetPosition(original.body);
+      const Eigen::Vector3d v = original.velocity();
+      if (car == host) {
+        park.add({p[0], p[1]}, car == 0 ? 0.3 : 2.4, {v.x(), v.y()}, car == 0 ? 0.4 : 0.0);
+      } else {
+        remote[host] = dBodyCreate(park.ode.world);
+        dBodySetKinematic(remote[host]);
+        park.responder.addVehicle(remote[host], original.parameters,
+                                  {.name = "remote", .mover = Mover::other_host});
+      }
+    }
+  }
+  int impacts = 0;
+  both.run(1.0, h, [&](std::span<const ImpactEvent> events) { impacts += impactsIn(events); });
+  EXPECT_GE(impacts, 1);
+  std::array<int, 2> seen{};
+  for (int i = 0; i < 200; ++i) {
+    for (std::size_t host = 0; host < hosts.size(); ++host) {
+      const std::unique_ptr<BoxCar>& other = hosts[1 - host].cars.front();
+      const dReal* p = dBodyGetPosition(other->body);
+      const Eigen::Vector3d v = hosts[1 - host].responder.velocity(hosts[1 - host].ids.front());
+      dBodySetPosition(remote[host], p[0], p[1], p[2]);
+      dBodySetQuaternion(remote[host], dBodyGetQuaternion(other->body));
+      dBodySetLinearVel(remote[host], v.x(), v.y(), v.z());
+      dBodySetAngularVel(remote[host], 0.0, 0.0,
+                         hosts[1 - host].responder.yawRate(hosts[1 - host].ids.front()));
+    }
+    for (std::size_t host = 0; host < hosts.size(); ++host) {
+      hosts[host].run(
+          h, h, [&](std::span<const ImpactEvent> events) { seen[host] += impactsIn(events); });
+    }
+  }
+  for (std::size_t host = 0; host < hosts.size(); ++host) {
+    EXPECT_EQ(seen[host], impacts);
+    const BoxCar& own = *hosts[host].cars.front();
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_NEAR(dBodyGetPosition(own.body)[k], dBodyGetPosition(both.cars[host]->body)[k], 1e-9);
+      EXPECT_NEAR(own.velocity()[k], both.cars[host]->velocity()[k], 1e-9);
+    }
+  }
+}
+
 TEST(Vehicles, APileUpComesToRestInOrder) {
   CarPark park;
   park.responder.addBarrier(straightWall({0.0, 500.0}, {0.0, -500.0}, 2.0),

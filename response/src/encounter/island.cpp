@@ -133,10 +133,12 @@ void Island::easeApart() {
     const double wanted = std::min(easedShare * depth / step_, most);
     const double missing = wanted - (a.eased.dot(own) - b.eased.dot(other));
     if (!(missing > 0.0)) continue;
-    const double massA = a.body().mass;
-    const double massB = b.body().mass;
-    a.eased += missing * massB / (massA + massB) * own;
-    b.eased -= missing * massA / (massA + massB) * other;
+    const double ownPart = 1.0 / a.body().mass;
+    const double itsPart = 1.0 / b.body().mass;
+    const double both = ownPart + itsPart;
+    if (!(both > 0.0)) continue;
+    a.eased += missing * ownPart / both * own;
+    b.eased -= missing * itsPart / both * other;
   }
   for (std::size_t i = 0; i < memberCount_; ++i) {
     const double speed = members_[i].eased.norm();

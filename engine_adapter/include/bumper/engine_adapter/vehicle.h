@@ -38,9 +38,24 @@ struct PairOptions {
   std::optional<ResponseSettings> response{};
 };
 
+/// Who moves a vehicle.
+enum class Mover {
+  world,  ///< this responder's world: walls and other vehicles act on it
+  /// The application, whatever it hits: a gate, a train, a lift, a car on rails. Others are hit by
+  /// it as by a body of infinite mass.
+  application,
+  /// Another host or engine, which answers for its walls and applies its share of an impact of two:
+  /// the opposite of the one here. The law takes its mass and yaw inertia from the parameters. Both
+  /// hosts get the same result if both start from the same two states.
+  other_host
+};
+
 struct VehicleOptions {
   /// The name in events; empty: "vehicle <number>".
   std::string name{};
+  /// One that this world does not move gets no force here, and meets no barrier: its body, best a
+  /// kinematic one, has the pose and velocity that the application gives it before each step().
+  Mover mover = Mover::world;
   /// Bodies that move with the chassis as one, such as wheels on joints. They share every impulse
   /// as parts of one rigid body would. A trailer is a vehicle of its own. Copied by addVehicle.
   std::span<const dBodyID> linkedBodies{};
