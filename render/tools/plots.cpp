@@ -39,6 +39,15 @@ ChildProcess::Patience patienceOf(const PlotOptions& options) {
       std::chrono::duration<double>(options.patience));
 }
 
+bool isPicture(const OutputFile& output) {
+  try {
+    readPng(output.path());
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 /// No word of the script is the user's: gnuplot would run commands in the name of a file. It is
 /// content with a full disk, so that what it wrote is looked at.
 void runPlotter(const std::string& script, const PlotOptions& options,
@@ -52,13 +61,15 @@ void runPlotter(const std::string& script, const PlotOptions& options,
     const bool isTaken = plotter.write(std::as_bytes(std::span(begin)), patience) &&
                          plotter.write(std::as_bytes(std::span(script)), patience);
     const int status = plotter.hasStalled() ? plotter.kill() : plotter.wait(patience);
+    words = plotter.lastErrorLine();
+    if (plotter.hasStalled()) words = "it did nothing for too long and was stopped; " + words;
     if (hasSucceeded(status) && isTaken) {
-      readPng(output.path());
-      output.moveToPlace();
-      return;
+      if (isPicture(output)) {
+        output.moveToPlace();
+        return;
+      }
+      words = "what it wrote is no whole picture; " + words;
     }
-    words = plotter.hasStalled() ? "it did nothing for too long and was stopped; " : "";
-    words += plotter.lastErrorLine();
   } catch (const std::system_error& error) {
     words = error.code().message();
   }
