@@ -1,7 +1,8 @@
-// What a scene hides, beside a test of every triangle.
+// What a scene hides, beside a test of every triangle; and scenes that hide everything.
 
 #include "sight_lines.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -10,6 +11,8 @@
 #include <cstdint>
 #include <random>
 
+#include "bumper/render/snapshot.h"
+#include "bumper/response/error.h"
 #include "bumper/scenes/paper_scenes.h"
 #include "long_run.h"
 
@@ -17,6 +20,8 @@ namespace bumper::drawing {
 namespace {
 
 using Eigen::Vector3d;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 /// Where the nearest triangle cuts the way, from the linear system of plane and line.
 double nearestCut(const Scene& scene, const Vector3d& from, const Vector3d& to) {
@@ -87,6 +92,45 @@ TEST(SightLines, takeMemoryInProportionHoweverTheTrianglesLie) {
   constexpr double mostOfATriangle = 1000.0;  // bytes, with what building takes
   EXPECT_LT(static_cast<double>(testing::peakMemory() - before), mostOfATriangle * 131072);
   EXPECT_LT(sight.visibleShare({0.0, 0.0, 1.0}, {0.0, 0.0, -1e4}), 1e-3);
+}
+
+SnapshotOptions smallPicture() {
+  SnapshotOptions options;
+  options.width = 160;
+  options.height = 120;
+  return options;
+}
+
+TEST(PictureOfALargeMesh, isRefusedIfItsTrianglesLieInTooManyLayers) {
+  SnapshotOptions options = smallPicture();
+  EXPECT_THAT([&] { renderSnapshot(stack(131072), {}, options); },
+              ThrowsMessage<Error>(HasSubstr("SnapshotOptions::mostOverdraw, 10000,")));
+  options.mostOverdraw = 200.0;
+  EXPECT_NO_THROW(renderSnapshot(stack(200), {}, options));
+  EXPECT_THROW(renderSnapshot(stack(1000), {}, options), Error);
+  options.mostOverdraw = 1e9;
+  EXPECT_NO_THROW(renderSnapshot(stack(20000), {}, options));
+}
+
+TEST(PictureOfALargeMesh, isDrawnIfTheyLieBesideEachOther) {
+  // 80,000 on the ground: a layer is some 400 of them in each square.
+  constexpr std::uint32_t side = 200;
+  Scene ground;
+  ground.meshes.resize(1);
+  for (std::uint32_t k = 0; k <= side; ++k) {
+    for (std::uint32_t i = 0; i <= side; ++i) ground.vertices.emplace_back(k, i, 0.0);
+  }
+  for (std::uint32_t k = 0; k < side; ++k) {
+    for (std::uint32_t i = 0; i < side; ++i) {
+      const std::uint32_t a = k * (side + 1) + i;
+      const std::uint32_t b = a + side + 1;
+      ground.triangles.push_back({{a, b, b + 1}, 0});
+      ground.triangles.push_back({{a, b + 1, a + 1}, 0});
+    }
+  }
+  SnapshotOptions options = smallPicture();
+  options.mostOverdraw = 1000.0;
+  EXPECT_NO_THROW(renderSnapshot(ground, {}, options));
 }
 
 }  // namespace
