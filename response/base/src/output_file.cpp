@@ -217,7 +217,7 @@ void OutputFile::moveToPlace() {
   }
   if (old_) {
     // Before the mode, which it changes; that it is not allowed is no failure.
-    (void)!fchown(file_.number(), old_->owner, old_->group);
+    [[maybe_unused]] const int isAllowed = fchown(file_.number(), old_->owner, old_->group);
     (void)fchmod(file_.number(), old_->mode);
   }
   require(reachesDisk(file_.number()));
