@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "bumper/base/printing.h"
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/response/error.h"
 #include "bumper/scenes/scene_files.h"
@@ -69,8 +70,9 @@ AngleCurve steeringOf(const std::vector<std::string>& entries) {
     double angle = 0.0;
     char colon = 0;
     std::istringstream text(entry);
-    if (!(text >> time >> colon >> angle) || colon != ':' || text.peek() != EOF) {
-      throw Error("--steering: '" + entry + "' is not <seconds>:<degrees>");
+    const bool isRead = text >> time >> colon >> angle && colon == ':' && text.peek() == EOF;
+    if (!isRead || !(std::abs(angle) <= 90.0)) {
+      throw Error("--steering: '" + entry + "' is not <seconds>:<degrees>, at most 90 either way");
     }
     points.emplace_back(time, angle * degree);
   }
@@ -178,7 +180,7 @@ Recording run(const Arguments& arguments, const Scene& scene) {
   std::printf(
       "%s: %zu triangles, %zu of them walls from %.1f to %.1f m (%.1f MB); dropped: %zu out of "
       "reach, %zu twice\n",
-      arguments.scene.filename().string().c_str(), scene.triangles.size(), report.walls,
+      printable(arguments.scene.filename().string()).c_str(), scene.triangles.size(), report.walls,
       report.lowestFoot, report.highestTop, 1e-6 * static_cast<double>(report.memory),
       report.droppedOverhead + report.droppedBuried,
       report.droppedDuplicate + report.droppedRetriangulated);
@@ -277,7 +279,7 @@ int runDrive(int argc, char** argv) {
   app.add_option("--up", arguments.up, "the file's up axis, for formats that state none")
       ->check(CLI::IsMember({"x", "y", "z"}));
   app.add_option("--scale", arguments.scale, "metres per unit of the file")
-      ->check(CLI::PositiveNumber)
+      ->check(numberIn(1e-9, 1e9))
       ->capture_default_str();
   app.add_option("--scenery", arguments.scenery,
                  "meshes to drive through, by name or material, as trees in pictures: a regular "
@@ -288,21 +290,22 @@ int runDrive(int argc, char** argv) {
          "room above it (default: near the scene's middle)")
       ->delimiter(',')
       ->expected(2, 3)
+      ->check(numberIn(-1e9, 1e9))
       ->type_name("X,Y[,Z]");
   app.add_option("--heading", arguments.heading, "of the start, deg from x towards y")
+      ->check(numberIn(-360.0, 360.0))
       ->capture_default_str();
   app.add_option("--speed", arguments.speed, "at the start, and held from then on, m/s")
+      ->check(numberIn(-1000.0, 1000.0))
       ->capture_default_str();
   app.add_option("--steering", arguments.steering,
                  "front wheel angles over time, <s>:<deg>,<s>:<deg>,…, positive to the left")
       ->delimiter(',');
   app.add_flag("--coast", arguments.coast, "do not hold the speed");
   app.add_option("--duration", arguments.duration, "s")
-      ->check(CLI::PositiveNumber)
+      ->check(numberIn(1e-4, 86400.0))
       ->capture_default_str();
-  app.add_option("--step", arguments.step, "s")
-      ->check(CLI::Range(1e-4, 0.05))
-      ->capture_default_str();
+  app.add_option("--step", arguments.step, "s")->check(numberIn(1e-4, 0.05))->capture_default_str();
   app.add_option("--law", arguments.law, "how the walls answer")
       ->check(CLI::IsMember({"restitution", "energy"}))
       ->capture_default_str();

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "bumper/base/printing.h"
 #include "bumper/render/csv_export.h"
 #include "bumper/render/image.h"
 #include "bumper/render/recording_writer.h"
@@ -37,7 +38,7 @@ void writeResults(const std::filesystem::path& folder, const Scene& scene,
   writePng(renderSnapshot(scene, recording, options), folder / "top_view.png");
   for (const char* file :
        {"run.jsonl", "snapshot.png", "top_view.png", "events.csv", "trajectory.csv"}) {
-    std::printf("  %s\n", (folder / file).string().c_str());
+    std::printf("  %s\n", printable((folder / file).string()).c_str());
   }
 }
 

@@ -41,7 +41,7 @@ void runLaw(const std::filesystem::path& folder, Law law) {
     return;
   }
   const std::filesystem::path curves = folder / name / "curves.png";
-  plotCurves(settings, curves);
+  plotCurves(settings, {}, curves);
   std::printf("  %s\n", curves.string().c_str());
 }
 

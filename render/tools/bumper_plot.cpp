@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bumper/base/output_file.h"
+#include "bumper/base/printing.h"
 #include "bumper/response/error.h"
 #include "plots.h"
 #include "recorded_run.h"
@@ -58,7 +59,7 @@ void plot(Arguments& arguments) {
     if (name == "force") plotForce(run.recording, arguments.plot, png);
     if (name == "impulse") plotImpulse(run.recording, arguments.plot, png);
     if (name == "path") plotPath(run.scene, run.recording, arguments.plot, png);
-    std::printf("%s\n", png.string().c_str());
+    std::printf("%s\n", printable(png.string()).c_str());
   }
 }
 
@@ -74,6 +75,7 @@ int runPlot(int argc, char** argv) {
   app.add_option("--vehicle", arguments.vehicle, "which vehicle (default: the first)");
   app.add_flag("--sae", arguments.plot.sae,
                "signs as in the paper (SAE J670: y to the right, yaw rate positive turning right)");
+  addPatience(app, arguments.plot.patience);
   app.footer(manual + exitCodes());
   return runTool(app, argc, argv, [&] { plot(arguments); });
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <string>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "bumper/base/output_file.h"
+#include "bumper/base/printing.h"
 #include "bumper/render/contact_sheet.h"
 #include "bumper/render/csv_export.h"
 #include "bumper/render/glb_export.h"
@@ -108,6 +110,7 @@ void addPictureOptions(CLI::App& command, Arguments& arguments) {
       .add_option("--camera", arguments.camera,
                   "where a fixed camera stands and what it looks at, m: x,y,z,x,y,z")
       ->delimiter(',')
+      ->check(numberIn(-1e9, 1e9))
       ->expected(6)
       ->type_name("M");
   command.add_option("--size", arguments.size, "pixels (default 1280x720, films 960x540)")
@@ -115,16 +118,25 @@ void addPictureOptions(CLI::App& command, Arguments& arguments) {
   command.add_option("--title", picture.title, "(default: the scene's name)");
 }
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 void addTimingOptions(CLI::App& command, Arguments& arguments) {
   ReplayTiming& timing = arguments.replay.timing;
-  command.add_option("--fps", timing.framesPerSecond, "frames per second")->capture_default_str();
+  command.add_option("--fps", timing.framesPerSecond, "frames per second")
+      ->check(numberIn(1.0, 240.0))
+      ->capture_default_str();
   command.add_option("--speed", timing.speed, "seconds of the run in one of the replay")
+      ->check(numberIn(0.001, 1000.0))
       ->capture_default_str();
   command
       .add_option("--slow-motion", timing.slowMotion,
                   "how many times slower around impacts; 1: not at all")
+      ->check(numberIn(1.0, 100.0))
       ->capture_default_str();
   command.add_option("--slow-reach", timing.slowReach, "s before and after an impact")
+      ->check(numberIn(0.0, 100.0))
+      ->capture_default_str();
+  command.add_option("--most-frames", timing.mostFrames, "more are an error")
       ->capture_default_str();
   command.add_option("--renderers", arguments.replay.renderers, "frames in work at the same time")
       ->capture_default_str();
@@ -134,15 +146,17 @@ void printInfo(const Arguments& arguments) {
   RunDescription run;
   const Recording recording = readRecordedPart(arguments.run, run);
   const std::string scene = !run.scene.builtIn.empty() ? run.scene.builtIn : run.scene.file;
-  std::printf("scene: %s%s%s\n", run.scene.name.c_str(), scene.empty() ? "" : ", ", scene.c_str());
+  std::printf("scene: %s%s%s\n", printable(run.scene.name).c_str(), scene.empty() ? "" : ", ",
+              printable(scene).c_str());
   for (const auto& [name, value] : run.parameters) {
     if (const auto* number = std::get_if<double>(&value))
-      std::printf("%s: %g\n", name.c_str(), *number);
+      std::printf("%s: %g\n", printable(name).c_str(), *number);
     else
-      std::printf("%s: %s\n", name.c_str(), std::get<std::string>(value).c_str());
+      std::printf("%s: %s\n", printable(name).c_str(),
+                  printable(std::get<std::string>(value)).c_str());
   }
   for (const RecordedVehicle& vehicle : recording.vehicles()) {
-    std::printf("vehicle %s: %zu poses", vehicle.name.c_str(), vehicle.poses.size());
+    std::printf("vehicle %s: %zu poses", printable(vehicle.name).c_str(), vehicle.poses.size());
     if (!vehicle.poses.empty()) {
       std::printf(" from %.3f to %.3f s", vehicle.poses.front().time, vehicle.poses.back().time);
     }
@@ -236,6 +250,7 @@ int replay(int argc, char** argv) {
   }
   sheet->add_option("--instants", arguments.sheet.instants, "s from the impact, one picture each")
       ->delimiter(',')
+      ->check(numberIn(-1e6, 1e6))
       ->capture_default_str();
   sheet->add_option("--title", arguments.sheet.title, "(default: the scene's name)");
   CLI::App* video =
@@ -248,8 +263,11 @@ int replay(int argc, char** argv) {
   CLI::App* glb = command("glb", "an animated 3D file for any glTF viewer", ".glb", makeGlb);
   glb->add_option("--reach", arguments.glb.sceneReach,
                   "m around the run: what of the scene lies beyond is left out")
+      ->check(numberIn(0.0, infinity))
       ->capture_default_str();
-  glb->add_option("--keys-per-second", arguments.glb.keysPerSecond, "(default: every pose)");
+  glb->add_option("--keys-per-second", arguments.glb.keysPerSecond, "(default: every pose)")
+      ->check(numberIn(1e-9, infinity));
+  addPatience(*video, arguments.replay.patience);
   for (CLI::App* each : {picture, sheet, video, frames, glb})
     addVehicleMeshOptions(*each, arguments.meshes);
   CLI::App* csv = command("csv", "events.csv and trajectory.csv", "folder", makeCsv);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bumper/base/printing.h"
 #include "bumper/render/degrees.h"
 
 namespace bumper::tools {
@@ -49,7 +50,7 @@ void printImpacts(const Recording& recording, std::size_t most) {
     for (const RecordedVehicle& vehicle : recording.vehicles()) {
       if (vehicle.name == event.vehicle) car = &vehicle.parameters;
     }
-    const std::string wall(event.material.empty() ? event.barrier : event.material);
+    const std::string wall = printable(event.material.empty() ? event.barrier : event.material);
     std::printf(
         "  %3d %8.3f  %-12s %-14.14s %7.1f %9.2f %9.2f %10.0f %7.0f → %7.0f %6.2f → %6.2f\n",
         number, event.time, placeOf(event.arm, *car).c_str(), wall.c_str(),

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -12,7 +13,9 @@
 #include <vector>
 
 #include "bumper/base/child_process.h"
+#include "bumper/base/output_file.h"
 #include "bumper/render/degrees.h"
+#include "bumper/render/image.h"
 #include "bumper/response/contact_point.h"
 #include "bumper/response/error.h"
 #include "bumper/scenes/walls.h"
@@ -31,19 +34,42 @@ set grid lc rgb '#dddddd' lw 1 lt 1
 set key top right
 )";
 
-std::string quoted(const std::filesystem::path& path) {
-  std::string text = "'";
-  for (const char c : path.string()) text += c == '\'' ? std::string("''") : std::string(1, c);
-  return text + "'";
+ChildProcess::Patience patienceOf(const PlotOptions& options) {
+  return std::chrono::ceil<std::chrono::milliseconds>(
+      std::chrono::duration<double>(options.patience));
 }
 
-void runPlotter(const std::string& script, const std::filesystem::path& png) {
+bool isPicture(const OutputFile& output) {
+  try {
+    readPng(output.path());
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// No word of the script is the user's: gnuplot would run commands in the name of a file. It is
+/// content with a full disk, so that what it wrote is looked at.
+void runPlotter(const std::string& script, const PlotOptions& options,
+                const std::filesystem::path& png) {
+  OutputFile output(png);
   std::string words;
   try {
+    const std::string begin = "set output '" + output.path().string() + "'\n";
     ChildProcess plotter(plotterName, {}, {.input = true, .errors = true});
-    const bool taken = plotter.write(std::as_bytes(std::span(script)));
-    if (hasSucceeded(plotter.wait()) && taken) return;
+    const ChildProcess::Patience patience = patienceOf(options);
+    const bool isTaken = plotter.write(std::as_bytes(std::span(begin)), patience) &&
+                         plotter.write(std::as_bytes(std::span(script)), patience);
+    const int status = plotter.hasStalled() ? plotter.kill() : plotter.wait(patience);
     words = plotter.lastErrorLine();
+    if (plotter.hasStalled()) words = "it did nothing for too long and was stopped; " + words;
+    if (hasSucceeded(status) && isTaken) {
+      if (isPicture(output)) {
+        output.moveToPlace();
+        return;
+      }
+      words = "what it wrote is no whole picture; " + words;
+    }
   } catch (const std::system_error& error) {
     words = error.code().message();
   }
@@ -66,11 +92,9 @@ std::vector<ImpactEvent> impactsOf(const Recording& recording, const PlotOptions
   return impacts;
 }
 
-// The output, the axis of time, and a line at each impact, with its number where there is room.
-void beginPlot(std::ostream& script, const Recording& recording, const PlotOptions& options,
-               const std::filesystem::path& png) {
-  script << look << "set output " << quoted(png)
-         << "\nset xlabel 'time, s'\nset xzeroaxis lw 1 lc rgb '#808080'\n";
+// The look, the axis of time, and a line at each impact, with its number where there is room.
+void beginPlot(std::ostream& script, const Recording& recording, const PlotOptions& options) {
+  script << look << "set xlabel 'time, s'\nset xzeroaxis lw 1 lc rgb '#808080'\n";
   const std::vector<RecordedPose>& poses = posesOf(recording, options);
   const double room = 0.015 * (poses.back().time - poses.front().time);
   double labelled = -std::numeric_limits<double>::infinity();
@@ -105,7 +129,7 @@ void outlineAt(std::ostream& out, const RecordedVehicle& vehicle, double time, d
 
 bool havePlotter() {
   try {
-    return hasSucceeded(ChildProcess(plotterName, {"--version"}, {}).wait());
+    return hasSucceeded(ChildProcess(plotterName, {"--version"}, {}).wait(patienceOf({})));
   } catch (const std::system_error&) {
     return false;
   }
@@ -119,11 +143,11 @@ void plotYawRate(const Recording& recording, const PlotOptions& options,
   for (const RecordedPose& pose : posesOf(recording, options))
     script << pose.time << ' ' << sign * pose.yawRate * degrees << '\n';
   script << "EOD\n";
-  beginPlot(script, recording, options, png);
+  beginPlot(script, recording, options);
   script << "set title 'Yaw rate'\nset ylabel 'yaw rate, deg/s ("
          << (options.sae ? "SAE J670: positive turning right" : "ISO 8855: positive turning left")
          << ")'\nplot $rate using 1:2 with lines lw 2 lc rgb '#1f4e9c' notitle\n";
-  runPlotter(script.str(), png);
+  runPlotter(script.str(), options, png);
 }
 
 void plotSpeed(const Recording& recording, const PlotOptions& options,
@@ -133,13 +157,13 @@ void plotSpeed(const Recording& recording, const PlotOptions& options,
   for (const RecordedPose& pose : posesOf(recording, options))
     script << pose.time << ' ' << pose.velocity.norm() << '\n';
   script << "EOD\n";
-  beginPlot(script, recording, options, png);
+  beginPlot(script, recording, options);
   script << R"(set title 'Speed of the mass centre'
 set ylabel 'speed, m/s'
 set yrange [0:]
 plot $speed using 1:2 with lines lw 2 lc rgb '#1f4e9c' notitle
 )";
-  runPlotter(script.str(), png);
+  runPlotter(script.str(), options, png);
 }
 
 void plotForce(const Recording& recording, const PlotOptions& options,
@@ -160,13 +184,13 @@ void plotForce(const Recording& recording, const PlotOptions& options,
     }
   }
   script << "EOD\n";
-  beginPlot(script, recording, options, png);
+  beginPlot(script, recording, options);
   script << R"(set title 'Force on the mass centre, tyres and walls together'
 set ylabel 'force, kN'
 plot $force using 1:2 with lines lw 2 lc rgb '#1f4e9c' title 'along the vehicle, positive forward', \
      $force using 1:3 with lines lw 2 lc rgb '#d62728' title 'across, positive to the )"
          << (options.sae ? "right" : "left") << "'\n";
-  runPlotter(script.str(), png);
+  runPlotter(script.str(), options, png);
 }
 
 void plotImpulse(const Recording& recording, const PlotOptions& options,
@@ -184,7 +208,7 @@ void plotImpulse(const Recording& recording, const PlotOptions& options,
            << std::abs(event.impulseTangent) / 1000.0 << ' ' << normal << ' ' << tangent << '\n';
   }
   script << poses.back().time << " 0 0 " << normal << ' ' << tangent << "\nEOD\n";
-  beginPlot(script, recording, options, png);
+  beginPlot(script, recording, options);
   script << R"(set title 'Impulse of the walls'
 set ylabel 'impulse, kN s'
 set yrange [0:]
@@ -194,7 +218,7 @@ plot $impulse using 1:2 with impulses lw 4 lc rgb '#1f4e9c' title 'each impact, 
      $impulse using 1:4 with steps lw 1.5 dt 2 lc rgb '#1f4e9c' title 'all so far, along the normal', \
      $impulse using 1:5 with steps lw 1.5 dt 2 lc rgb '#d62728' title 'all so far, friction'
 )";
-  runPlotter(script.str(), png);
+  runPlotter(script.str(), options, png);
 }
 
 void plotPath(const Scene& scene, const Recording& recording, const PlotOptions& options,
@@ -224,7 +248,7 @@ void plotPath(const Scene& scene, const Recording& recording, const PlotOptions&
   script << "EOD\n$impacts << EOD\n";
   for (const ImpactEvent& event : impactsOf(recording, options))
     script << event.contact.x() << ' ' << side * event.contact.y() << '\n';
-  script << "EOD\n" << look << "set output " << quoted(png) << '\n';
+  script << "EOD\n" << look;
   constexpr double margin = 8.0;  // m
   // To scale, and yet of a shape that fills the plot and leaves the scales room.
   constexpr double flattest = 0.4;
@@ -249,10 +273,11 @@ plot $walls with lines lw 1.5 lc rgb '#606060' title 'walls', \
      $path using 1:2:3 with lines lw 3 lc palette title 'mass centre')";
   if (!impactsOf(recording, options).empty())
     script << ", $impacts with points pt 7 ps 1.2 lc rgb '#d62728' title 'impacts'";
-  runPlotter(script.str() + "\n", png);
+  runPlotter(script.str() + "\n", options, png);
 }
 
-void plotCurves(const ResponseSettings& settings, const std::filesystem::path& png) {
+void plotCurves(const ResponseSettings& settings, const PlotOptions& options,
+                const std::filesystem::path& png) {
   std::ostringstream script;
   script << "$curves << EOD\n";
   for (int angle = 0; angle <= 90; ++angle) {
@@ -261,7 +286,7 @@ void plotCurves(const ResponseSettings& settings, const std::filesystem::path& p
            << settings.energyRemaining(alpha) << '\n';
   }
   script << "EOD\n"
-         << look << "set output " << quoted(png) << R"(
+         << look << R"(
 set title 'Restitution (the paper, Figure 4), friction and remaining energy'
 set xlabel 'angle of attack, deg (0 grazing, 90 head-on)'
 set xrange [0:90]
@@ -276,7 +301,7 @@ plot $curves using 1:2 with lines lw 3 lc rgb '#1f4e9c' title 'e', \
      $curves using 1:3 with lines lw 3 dt 2 lc rgb '#d62728' title '{/Symbol m}', \
      $curves using 1:4 axes x1y2 with lines lw 3 dt 4 lc rgb '#2a7f3f' title 'P (right axis)'
 )";
-  runPlotter(script.str(), png);
+  runPlotter(script.str(), options, png);
 }
 
 }  // namespace bumper::tools

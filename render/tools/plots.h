@@ -15,7 +15,11 @@ bool havePlotter();
 struct PlotOptions {
   std::size_t vehicle = 0;  ///< index in the recording; its impacts alone are shown
   bool sae = false;         ///< signs as the paper has them: SAE J670, z down, y to the right
+  double patience = 120.0;  ///< s, up to a week: how long gnuplot may do nothing
 };
+
+// Each throws Error, naming the file, if it cannot be written, or if gnuplot fails, tries the
+// patience or leaves no picture, with its last words.
 
 // Over time, with the impacts marked:
 
@@ -40,6 +44,7 @@ void plotPath(const Scene& scene, const Recording& recording, const PlotOptions&
               const std::filesystem::path& png);
 
 /// The paper's Figure 4, with friction and remaining energy beside restitution.
-void plotCurves(const ResponseSettings& settings, const std::filesystem::path& png);
+void plotCurves(const ResponseSettings& settings, const PlotOptions& options,
+                const std::filesystem::path& png);
 
 }  // namespace bumper::tools

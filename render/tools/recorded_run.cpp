@@ -3,9 +3,11 @@
 #include <cstdio>
 #include <optional>
 
+#include "bumper/base/printing.h"
 #include "bumper/response/error.h"
 #include "bumper/scenes/paper_scenes.h"
 #include "scene_loading.h"
+#include "tool.h"
 
 namespace bumper::tools {
 
@@ -42,17 +44,23 @@ void addRecordedRunOptions(CLI::App& command, RecordedRunOptions& options) {
   command.add_option("--up", options.up, "that file's up axis")
       ->check(CLI::IsMember({"x", "y", "z"}));
   command.add_option("--scale", options.scale, "that file's metres per unit")
-      ->check(CLI::PositiveNumber);
-  command.add_option("--from", options.span.from, "s: begin there");
-  command.add_option("--to", options.span.to, "s: end there");
+      ->check(numberIn(1e-9, 1e9));
+  const CLI::Validator times = numberIn(-options.limits.latest, options.limits.latest);
+  command.add_option("--from", options.span.from, "s: begin there")->check(times);
+  command.add_option("--to", options.span.to, "s: end there")->check(times);
+  command
+      .add_option("--most-seconds", options.limits.seconds,
+                  "that a recording may reach over, s; a longer one is refused")
+      ->check(numberIn(0.0, options.limits.latest))
+      ->capture_default_str();
 }
 
 Recording readRecordedPart(const RecordedRunOptions& options, RunDescription& description) {
-  RecordingReader reader(options.recording);
+  RecordingReader reader(options.recording, options.limits);
   description = reader.run();
   if (!reader.isComplete()) {
     std::fprintf(stderr, "%s was not completed or is cut off: what there is of it is taken\n",
-                 options.recording.string().c_str());
+                 printable(options.recording.string()).c_str());
   }
   return reader.read(options.span);
 }
@@ -75,7 +83,7 @@ RecordedRun readRecordedRun(const RecordedRunOptions& options) {
     std::fprintf(stderr,
                  "warning: the scene is not the one that %s was made in: the file has changed, or "
                  "--scene, --up or --scale name another\n",
-                 options.recording.string().c_str());
+                 printable(options.recording.string()).c_str());
   }
   return run;
 }

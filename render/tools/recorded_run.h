@@ -18,9 +18,10 @@ struct RecordedRunOptions {
   std::string up;               ///< "x", "y", "z"; empty: as in the recording
   double scale = 0.0;           ///< 0: as in the recording
   RecordingSpan span;
+  RecordingLimits limits;
 };
 
-/// Adds --scene, --up, --scale, and --from and --to.
+/// Adds --scene, --up, --scale, --from, --to and --most-seconds.
 void addRecordedRunOptions(CLI::App& command, RecordedRunOptions& options);
 
 struct RecordedRun {

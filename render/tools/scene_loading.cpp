@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "bumper/base/printing.h"
 #include "bumper/response/error.h"
 
 namespace bumper::tools {
@@ -32,7 +33,7 @@ Scene loadScene(const std::filesystem::path& file, const std::string& upOption,
     throw Error(withOption(error.what(), upOption));
   }
   for (const std::string& warning : report.warnings) {
-    std::fprintf(stderr, "warning: %s\n", withOption(warning, upOption).c_str());
+    std::fprintf(stderr, "warning: %s\n", printable(withOption(warning, upOption)).c_str());
   }
   return scene;
 }

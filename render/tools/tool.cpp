@@ -3,16 +3,25 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <iostream>
+#include <sstream>
 #include <utility>
+
+#include "bumper/base/output_file.h"
+#include "bumper/base/printing.h"
 
 namespace bumper::tools {
 
 int runMain(const char* name, int (*program)(int argc, char** argv), int argc, char** argv) {
   try {
-    return program(argc, argv);
+    removeUnfinishedFilesOnSignals();
+    const int code = program(argc, argv);
+    closeStandardOutput();
+    return code;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", name, error.what());
+    std::fprintf(stderr, "%s: %s\n", name, printable(error.what()).c_str());
     return 1;
   }
 }
@@ -22,9 +31,34 @@ int runTool(CLI::App& app, int argc, char** argv, const std::function<void()>& j
     app.parse(argc, argv);
     job();
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    std::ostringstream words;
+    const int code = app.exit(error, std::cout, words) == 0 ? 0 : 2;
+    std::istringstream lines(words.str());
+    for (std::string line; std::getline(lines, line);)
+      std::fprintf(stderr, "%s\n", printable(line).c_str());
+    return code;
   }
   return 0;
+}
+
+CLI::Validator numberIn(double low, double high) {
+  std::ostringstream bounds;
+  bounds << low << " to " << high;
+  const auto check = [low, high, bounds = bounds.str()](const std::string& text) -> std::string {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    const bool isNumber = !text.empty() && *end == '\0';
+    return isNumber && value >= low && value <= high ? "" : text + " is not in " + bounds;
+  };
+  return {check, "in [" + bounds.str() + "]", "numberIn"};
+}
+
+void addPatience(CLI::App& command, double& patience) {
+  command
+      .add_option("--patience", patience,
+                  "how long the program that draws may do nothing before it is stopped, s")
+      ->check(numberIn(0.01, 604800.0))
+      ->capture_default_str();
 }
 
 std::string exitCodes() {

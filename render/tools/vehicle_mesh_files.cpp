@@ -7,8 +7,10 @@
 #include <numbers>
 #include <variant>
 
+#include "bumper/base/printing.h"
 #include "bumper/response/error.h"
 #include "scene_loading.h"
+#include "tool.h"
 
 namespace bumper::tools {
 
@@ -56,7 +58,7 @@ VehicleMeshes asRecorded(const Recording& recording, const std::filesystem::path
                                   numberOf(vehicle.settings, "mesh_turn_deg"));
     } catch (const Error& error) {
       std::fprintf(stderr, "warning: vehicle '%s' is drawn without its mesh: %s\n",
-                   vehicle.name.c_str(), error.what());
+                   printable(vehicle.name).c_str(), printable(error.what()).c_str());
     }
   }
   return meshes;
@@ -75,7 +77,7 @@ void addVehicleMeshOptions(CLI::App& command, VehicleMeshOptions& options) {
   command
       .add_option("--vehicle-mesh-turn", options.turn,
                   "to the left about the up axis, if its front does not point along x, deg")
-      ->check(CLI::Range(-360.0, 360.0));
+      ->check(numberIn(-360.0, 360.0));
 }
 
 RunParameters meshSettings(const VehicleMeshOptions& options, const std::string& vehicle,

@@ -84,6 +84,32 @@ TEST(ChildProcess, doesNotHoldTheStreamsOfAnother) {
   EXPECT_EQ(readAll(first.output()), "");
 }
 
+TEST(ChildProcess, oneThatDoesNothingIsNotWaitedForForEver) {
+  constexpr std::chrono::milliseconds patience{50};
+  ChildProcess deaf("sh", {"-c", "echo last words >&2; exec sleep 600"},
+                    {.input = true, .output = true, .errors = true});
+  EXPECT_FALSE(deaf.hasStalled());
+  const std::string much(1U << 22U, 'x');
+  EXPECT_FALSE(deaf.write(bytesOf(much), patience));
+  EXPECT_TRUE(deaf.hasStalled());
+  std::string text;
+  EXPECT_FALSE(deaf.read(text, patience));
+  EXPECT_EQ(WTERMSIG(deaf.wait(patience)), SIGKILL);
+  EXPECT_EQ(deaf.lastErrorLine(), "last words");
+}
+
+TEST(ChildProcess, patienceIsNotTriedByOneThatWorks) {
+  constexpr std::chrono::seconds patience{60};
+  ChildProcess child("tr", {"a-z", "A-Z"}, {.input = true, .output = true});
+  EXPECT_TRUE(child.write(bytesOf("bumper"), patience));
+  EXPECT_TRUE(hasSucceeded(child.wait(patience)));
+  std::string text;
+  EXPECT_TRUE(child.read(text, patience));
+  EXPECT_EQ(text, "BUMPER");
+  EXPECT_FALSE(child.read(text, patience));
+  EXPECT_FALSE(child.hasStalled());
+}
+
 TEST(ChildProcess, oneThatIsMissingIsAnError) {
   try {
     const ChildProcess child("/nowhere/program", {}, {.input = true, .output = true});

@@ -27,4 +27,15 @@ expect(2 ${course} ${rail} --diff ${WORK}/none/difference.png)
 expect(2 ${rail})
 expect(2 ${rail} ${rail} --reach 9)
 expect(2 ${rail} ${rail} --what)
+expect(2 ${rail} /dev/zero)
+expect(2 ${rail} ${rail} --most-pixels 1000)
+expect(2 ${rail} ${rail} --most-differing nan)
+expect(2 ${rail} ${rail} --diff /dev/full)
 expect(0 --help)
+
+# What is printed is written, or it is an error.
+execute_process(COMMAND ${COMPARE} ${rail} ${rail} OUTPUT_FILE /dev/full RESULT_VARIABLE result
+                ERROR_VARIABLE error)
+if(NOT result EQUAL 2 OR NOT error MATCHES "standard output")
+  message(FATAL_ERROR "on a full device it ended with ${result}: ${error}")
+endif()

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <png.h>
+#include <sys/stat.h>
 
 #include <array>
 #include <cstdint>
@@ -10,7 +11,9 @@
 #include <iterator>
 #include <random>
 #include <string>
+#include <utility>
 
+#include "bumper/render/image_compare.h"
 #include "bumper/response/error.h"
 #include "temporary_folder.h"
 
@@ -19,6 +22,7 @@ namespace {
 
 using ::testing::HasSubstr;
 using testing::TemporaryFolder;
+using ::testing::ThrowsMessage;
 
 Image noise(int width, int height) {
   std::mt19937 random(3);
@@ -61,6 +65,22 @@ TEST(Image, rejectsSizesThatCannotBe) {
   EXPECT_THROW(Image(0, 5), Error);
   EXPECT_THROW(Image(5, -1), Error);
   EXPECT_THROW(Image(Image::maxSide + 1, 1), Error);
+}
+
+TEST(Image, thatWasMovedFromHasNoPixels) {
+  Image first = noise(7, 5);
+  const Image copy = first;
+  Image second = std::move(first);
+  EXPECT_EQ(second, copy);
+  EXPECT_EQ(first.width() * first.height(), 0);  // NOLINT(bugprone-use-after-move): what it is for
+  EXPECT_TRUE(first.pixels().empty());
+  EXPECT_THROW(compareImages(first, first), Error);
+  const TemporaryFolder folder;
+  EXPECT_THROW(writePng(first, folder.path() / "none.png"), Error);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  first = std::move(second);
+  EXPECT_EQ(first, copy);
+  EXPECT_EQ(second.width() * second.height(), 0);  // NOLINT(bugprone-use-after-move)
 }
 
 TEST(Png, roundTripKeepsEveryPixel) {
@@ -139,6 +159,35 @@ TEST(Png, refusesAHugePictureBeforeItTakesItsMemory) {
     ADD_FAILURE() << "no error";
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("900000 x 900000"));
+  }
+}
+
+TEST(Png, refusesMorePixelsThanAllowed) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "picture.png";
+  writePng(noise(40, 30), file);
+  EXPECT_EQ(readPng(file, 1200).width(), 40);
+  EXPECT_THAT([&] { readPng(file, 1199); },
+              ThrowsMessage<Error>(HasSubstr("40 x 30 pixels, allowed are 1199 in all")));
+  writePng(Image(16384, 4097), file);
+  expectUnreadable(file, "67 million pixels");
+}
+
+TEST(Png, refusesMoreBytesThanItsPixelsCanTake) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "picture.png";
+  writePng(noise(40, 30), file);
+  std::filesystem::resize_file(file, std::uintmax_t{1} << 40U);  // takes no room
+  expectUnreadable(file, "a terabyte");
+}
+
+TEST(Png, refusesWhatIsNoRegularFileAtOnce) {
+  const TemporaryFolder folder;
+  const auto pipe = folder.path() / "pipe.png";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const auto& file : {pipe, std::filesystem::path("/dev/zero")}) {
+    EXPECT_THAT([&] { readPng(file); },
+                ThrowsMessage<Error>(HasSubstr(file.string() + ": it is no regular file")));
   }
 }
 

@@ -57,6 +57,35 @@ TEST(ReplayTimes, GoSlowlyAroundHardImpactsAlone) {
   EXPECT_NEAR(static_cast<double>(before), static_cast<double>(after), 2.0);
 }
 
+/// Two poses, some time apart.
+Recording standingFor(double from, double to) {
+  Recording run;
+  const std::size_t car = run.addVehicle("car", saloon());
+  for (const double time : {from, to}) run.addPose(car, {.time = time});
+  return run;
+}
+
+TEST(ReplayTimes, AreNoMoreThanAllowed) {
+  EXPECT_THAT([] { replayTimes(standingFor(0.0, 1e8)); },
+              ThrowsMessage<Error>(HasSubstr("from 0 to 1e+08 s has more than "
+                                             "ReplayTiming::mostFrames, 216000")));
+  ReplayTiming timing{.framesPerSecond = 10.0, .slowMotion = 1.0, .mostFrames = 11};
+  EXPECT_EQ(replayTimes(standingFor(0.0, 1.05), timing).size(), 11U);
+  timing.mostFrames = 10;
+  EXPECT_THAT([&] { replayTimes(standingFor(0.0, 1.05), timing); },
+              ThrowsMessage<Error>(HasSubstr("mostFrames, 10")));
+  // Slow motion counts too.
+  timing = {.framesPerSecond = 10.0, .slowMotion = 10.0, .slowReach = 0.5, .mostFrames = 60};
+  EXPECT_THAT([&] { replayTimes(testRailRun(), timing); },
+              ThrowsMessage<Error>(HasSubstr("mostFrames, 60")));
+}
+
+TEST(ReplayTimes, EndWhereTimeIsNotToldApart) {
+  for (const double end : {1e17, 1e17 + 64.0})
+    EXPECT_THAT([&] { replayTimes(standingFor(1e17, end)); },
+                ThrowsMessage<Error>(HasSubstr("lost in the rounding")));
+}
+
 TEST(ReplayTimes, KeepToTheSpan) {
   const Recording run = testRailRun();
   const std::vector<double> times = replayTimes(run, {.from = 1.0, .to = 2.0});

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <string>
@@ -32,7 +33,9 @@ class Video : public ::testing::Test {
   }
 
   [[nodiscard]] bool nothingIsLeft() const {
-    return !std::filesystem::exists(file_) && !std::filesystem::exists(file_.string() + ".part");
+    const std::filesystem::directory_iterator entries(folder_.path());
+    return std::all_of(begin(entries), end(entries),
+                       [](const auto& entry) { return entry.path().filename() == "pretended"; });
   }
 
   TemporaryFolder folder_;
@@ -42,8 +45,18 @@ class Video : public ::testing::Test {
 constexpr int width = 64;
 constexpr int height = 48;
 
-// Its last argument is file:<place>; what it gets is what the file holds.
-constexpr const char* copies = R"(for last; do :; done; exec cat > "${last#file:}")";
+/// What does `inspects` when it is asked for the frames of a film, else `encodes`; $film is the
+/// film's place.
+std::string script(const std::string& inspects, const std::string& encodes) {
+  return "for word; do case $word in file:*) film=${word#file:};; esac; last=$word; done\n"
+         "if [ \"$last\" = pipe:1 ]; then\n" +
+         inspects + "\nelse\n" + encodes + "\nfi\n";
+}
+
+// What it gets is what the film holds; it names a frame for each of width × height × 3 bytes.
+const std::string copies = script(R"(echo '# comment'; bytes=$(wc -c < "$film")
+while [ "$bytes" -gt 0 ]; do echo 'a frame'; bytes=$((bytes - 9216)); done)",
+                                  R"(exec cat > "$film")");
 
 TEST_F(Video, EveryPictureGoesDownThePipeAsItIs) {
   pretend(copies);
@@ -63,7 +76,8 @@ TEST_F(Video, EveryPictureGoesDownThePipeAsItIs) {
   std::ifstream stream(file_, std::ios::binary);
   const std::string got(std::istreambuf_iterator<char>(stream), {});
   EXPECT_TRUE(got == expected);
-  EXPECT_FALSE(std::filesystem::exists(file_.string() + ".part"));
+  std::filesystem::remove(file_);
+  EXPECT_TRUE(nothingIsLeft());
 }
 
 TEST_F(Video, PlacesWithOddNamesAreLeftAlone) {
@@ -111,10 +125,64 @@ TEST_F(Video, AFailureLeavesNothingAndKeepsWhatWasThere) {
     VideoWriter film(file_, width, height, 30.0);
     EXPECT_THROW(film.finish(), Error);
   }
-  EXPECT_FALSE(std::filesystem::exists(file_.string() + ".part"));
   std::string content;
   std::getline(std::ifstream(file_), content);
   EXPECT_EQ(content, "earlier film");
+  std::filesystem::remove(file_);
+  EXPECT_TRUE(nothingIsLeft());
+}
+
+TEST_F(Video, FramesThatAreMissingAreAnErrorEvenIfFfmpegIsContent) {
+  std::ofstream(file_) << "earlier film";
+  pretend(script("echo 'a frame'", R"(exec cat > "$film")"));
+  {
+    VideoWriter film(file_, width, height, 30.0);
+    for (int k = 0; k < 3; ++k) film.add(Image(width, height));
+    EXPECT_THAT([&] { film.finish(); }, ThrowsMessage<Error>(HasSubstr("left 1 of 3 frames")));
+  }
+  pretend("exit 0");
+  {
+    VideoWriter film(file_, width, height, 30.0);
+    EXPECT_THROW(
+        {
+          film.add(Image(width, height));
+          film.finish();
+        },
+        Error);
+  }
+  EXPECT_EQ(std::filesystem::file_size(file_), 12U);
+}
+
+TEST_F(Video, AFilmThatCannotBeReadIsAnError) {
+  pretend(script("echo 'no film' >&2; exit 1", R"(exec cat > "$film")"));
+  VideoWriter film(file_, width, height, 30.0);
+  film.add(Image(width, height));
+  EXPECT_THAT([&] { film.finish(); },
+              ThrowsMessage<Error>(AllOf(HasSubstr("cannot read"), HasSubstr("no film"))));
+}
+
+TEST_F(Video, AFilmWithoutPicturesIsAnError) {
+  pretend(copies);
+  VideoWriter film(file_, width, height, 30.0);
+  EXPECT_THAT([&] { film.finish(); }, ThrowsMessage<Error>(HasSubstr("no picture")));
+}
+
+TEST_F(Video, AnFfmpegThatHangsIsStoppedAndQuoted) {
+  constexpr double patience = 0.1;
+  pretend("echo 'last words' >&2; exec sleep 600");
+  for (const int count : {0, 200}) {  // less and more than a pipe holds
+    VideoWriter film(file_, width, height, 30.0, patience);
+    EXPECT_THAT(
+        [&] {
+          for (int k = 0; k < count; ++k) film.add(Image(width, height));
+          film.finish();
+        },
+        ThrowsMessage<Error>(AllOf(HasSubstr(file_.string()), HasSubstr("did nothing for 0.1 s"),
+                                   HasSubstr("last words"))));
+  }
+  EXPECT_TRUE(nothingIsLeft());
+  EXPECT_THAT([&] { VideoWriter(file_, width, height, 30.0, 0.0); },
+              ThrowsMessage<Error>(HasSubstr("patience of 0 s")));
 }
 
 TEST_F(Video, SaysThatFfmpegIsMissing) {
@@ -146,7 +214,8 @@ TEST_F(Video, RealFilmsOfEveryKindAreMade) {
     GTEST_SKIP() << "ffmpeg is not installed";
   for (const char* name : {"film.mp4", "film.webm", "film.gif", "film.apng"}) {
     VideoWriter film(folder_.path() / name, 65, 47, 25.0);
-    for (int k = 0; k < 10; ++k)
+    // Twice the same, and so at the end, are frames as well.
+    for (const int k : {0, 1, 2, 2, 3, 4, 5, 6, 7, 8, 9, 9})
       film.add(Image(65, 47, {static_cast<std::uint8_t>(20 * k), 90, 0}));
     film.finish();
     EXPECT_GT(std::filesystem::file_size(folder_.path() / name), 300U) << name;

@@ -3,7 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
+#include <vector>
 
 #include "bumper/response/error.h"
 #include "bumper/scenes/paper_scenes.h"
@@ -105,6 +110,38 @@ TEST_F(SavedScenes, SavingSaysWhatIsWrong) {
               ThrowsMessage<Error>(AllOf(HasSubstr("nowhere"), HasSubstr("cannot be written"))));
   EXPECT_THAT([&] { saveScene(Scene{}, path("empty.obj")); },
               ThrowsMessage<Error>(AllOf(HasSubstr("empty.obj"), HasSubstr("no triangle"))));
+}
+
+/// What a folder holds, in order.
+std::vector<std::string> namesIn(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+class SaveScene : public TemporaryFiles {};
+
+TEST_F(SaveScene, theFullDiskIsAnErrorAndTheOldFileStays) {
+  for (const char* ending : {".obj", ".stl", ".ply", ".glb"}) {
+    const std::filesystem::path file = path(std::string("full") + ending);
+    create_symlink("/dev/full", file);
+    EXPECT_THAT([&] { saveScene(course(), file); },
+                ThrowsMessage<Error>(AllOf(HasSubstr(file.string()), HasSubstr("No space left"))))
+        << ending;
+    EXPECT_TRUE(is_symlink(file)) << ending;
+  }
+}
+
+TEST_F(SaveScene, namesWithDotsAndBytesOfAnyKindAreWritten) {
+  const std::filesystem::path folder = path("inside");
+  std::filesystem::create_directory(folder);
+  saveScene(course(), folder / "a.b c\xE9.obj");
+  EXPECT_THAT(namesIn(folder), ::testing::ElementsAre("a.b c\xE9.mtl", "a.b c\xE9.obj"));
+  std::ifstream text(folder / "a.b c\xE9.obj");
+  const std::string all(std::istreambuf_iterator<char>(text), {});
+  EXPECT_THAT(all, HasSubstr("mtllib a.b c\xE9.mtl\n"));
 }
 
 }  // namespace

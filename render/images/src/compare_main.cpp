@@ -10,6 +10,8 @@
 #include <exception>
 #include <string>
 
+#include "bumper/base/output_file.h"
+#include "bumper/base/printing.h"
 #include "bumper/render/image.h"
 #include "bumper/render/image_compare.h"
 
@@ -23,12 +25,13 @@ struct Arguments {
   std::string actual;
   std::string golden;
   std::string difference;
+  std::size_t mostPixels = usualMostPixels;
   ImageCompareOptions compare;
 };
 
 int compare(const Arguments& arguments) {
-  const Image actual = readPng(arguments.actual);
-  const Image golden = readPng(arguments.golden);
+  const Image actual = readPng(arguments.actual, arguments.mostPixels);
+  const Image golden = readPng(arguments.golden, arguments.mostPixels);
   if (actual.width() != golden.width() || actual.height() != golden.height()) {
     std::printf("different: %d x %d pixels instead of %d x %d\n", actual.width(), actual.height(),
                 golden.width(), golden.height());
@@ -52,6 +55,7 @@ int compare(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) try {
+  removeUnfinishedFilesOnSignals();
   Arguments arguments;
   CLI::App app(
       "Compares two pictures of the same size, edges' smoothing aside.\n"
@@ -71,13 +75,18 @@ int main(int argc, char** argv) try {
                  "share of differing pixels that is allowed, 0 to 1");
   app.add_option("--most-differing-in-tile", arguments.compare.mostDifferingInTile,
                  "the same for any 32 x 32 pixels");
+  app.add_option("--most-pixels", arguments.mostPixels,
+                 "of a picture that is read, whatever its file says");
+  int outcome = same;
   try {
     app.parse(argc, argv);
+    outcome = compare(arguments);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? same : unreadable;
+    outcome = app.exit(error) == 0 ? same : unreadable;
   }
-  return compare(arguments);
+  closeStandardOutput();
+  return outcome;
 } catch (const std::exception& error) {
-  std::fprintf(stderr, "bumper-compare: %s\n", error.what());
+  std::fprintf(stderr, "bumper-compare: %s\n", printable(error.what()).c_str());
   return unreadable;
 }

@@ -96,6 +96,7 @@ ImageComparison compareImages(const Image& first, const Image& second,
   requireRange(options.mostDifferingInTile, 1, "mostDifferingInTile");
   const int width = first.width();
   const int height = first.height();
+  if (width == 0 || height == 0) throw Error("cannot compare images without pixels");
   if (second.width() != width || second.height() != height) {
     throw Error("cannot compare an image of " + std::to_string(width) + " x " +
                 std::to_string(height) + " pixels with one of " + std::to_string(second.width()) +

@@ -51,6 +51,7 @@ struct SceneModel {
     Eigen::AlignedBox3d box;  ///< m, relative to origin
     Range surfaces;
     Range edges;
+    std::size_t casters = 0;  ///< triangles of it that throw shadows
   };
 
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< world
@@ -82,6 +83,7 @@ struct TextLine {
 struct Picture {
   int width = 0;
   int height = 0;
+  double mostOverdraw = 0.0;                                  ///< that of SnapshotOptions
   Eigen::Vector3d localOrigin = Eigen::Vector3d::Zero();      ///< world
   Eigen::Matrix4d localToClip = Eigen::Matrix4d::Identity();  ///< OpenGL clip space
   Eigen::Matrix4d localToSun = Eigen::Matrix4d::Identity();   ///< the sun's clip space

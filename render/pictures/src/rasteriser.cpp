@@ -163,6 +163,20 @@ bool outside(const Eigen::AlignedBox3d& box, const Eigen::Matrix4d& toClip) {
   return std::ranges::find(beyond, 8) != beyond.end();
 }
 
+/// The share of a picture that a box covers at most.
+double coveredShare(const Eigen::AlignedBox3d& box, const Eigen::Matrix4d& toClip) {
+  Eigen::AlignedBox2d covered;
+  for (int k = 0; k < 8; ++k) {
+    const Eigen::Vector4d clip =
+        toClip * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k)).homogeneous();
+    if (!(clip.w() > 1e-9)) return 1.0;  // around the camera
+    covered.extend(Eigen::Vector2d(clip.head<2>() / clip.w()));
+  }
+  const Eigen::Vector2d all = Eigen::Vector2d::Ones();
+  covered = covered.intersection(Eigen::AlignedBox2d(-all, all));
+  return covered.isEmpty() ? 0.0 : 0.25 * covered.volume();
+}
+
 /// Adds a range to a list, to the last of it if they join.
 void join(const Range& range, std::vector<Range>& ranges) {
   if (range.count == 0) return;
@@ -206,10 +220,10 @@ Rasteriser::Rasteriser(const OffscreenContext& context, const SceneModel& scene)
 }
 
 Image Rasteriser::draw(const Picture& picture) {
+  chooseParts(picture);
   makeTarget(picture);
   fill<SurfaceVertex>(bodies_, picture.bodies, GL_STREAM_DRAW);
   drawShadowMap(picture);
-  chooseParts(picture);
   drawLayers(picture);
   Image image = readBack();
   if (gl_.GetError() != GL_NO_ERROR) throw Error("OpenGL reports an error after drawing");
@@ -426,16 +440,29 @@ void Rasteriser::setUniforms(const Picture& picture) const {
   number(edge_, "nearer", picture.edgeNearer);
 }
 
-/// Finds what of the scene can be seen.
+/// Finds what of the scene can be seen, and whether it can be drawn in bearable time: a driver
+/// tests every pixel of every triangle, and keeps them all until then.
 void Rasteriser::chooseParts(const Picture& picture) {
-  const Eigen::Matrix4d toClip = picture.localToClip * movedBy(sceneOrigin_ - picture.localOrigin);
+  const Eigen::Matrix4d toLocal = movedBy(sceneOrigin_ - picture.localOrigin);
+  const Eigen::Matrix4d toClip = picture.localToClip * toLocal;
+  const Eigen::Matrix4d toSun = picture.localToSun * toLocal;
   seenSurfaces_.clear();
   seenEdges_.clear();
+  double overdraw = 0.0;
+  double shadows = 0.0;
   for (const SceneModel::Part& part : parts_) {
+    if (part.casters > 0)
+      shadows += static_cast<double>(part.casters) * coveredShare(part.box, toSun);
     if (outside(part.box, toClip)) continue;
+    overdraw += static_cast<double>(part.surfaces.count) / 3.0 * coveredShare(part.box, toClip);
     join(part.surfaces, seenSurfaces_);
     join(part.edges, seenEdges_);
   }
+  overdraw = std::max(overdraw, shadows);
+  if (overdraw <= picture.mostOverdraw) return;
+  throw Error("the scene's triangles lie in up to " + std::to_string(std::llround(overdraw)) +
+              " layers over the picture or its shadows: SnapshotOptions::mostOverdraw, " +
+              std::to_string(std::llround(picture.mostOverdraw)) + ", is the most");
 }
 
 void Rasteriser::drawScene(const Picture& picture) const {

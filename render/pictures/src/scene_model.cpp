@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
+
+#include "bumper/response/error.h"
 
 namespace bumper::drawing {
 
@@ -152,6 +156,11 @@ void addSurface(const Corners& corners, const Vector3f& colour, bool ground,
 }
 
 SceneModel sceneModel(const Scene& scene) {
+  // OpenGL counts vertices in 31 bits; a triangle has up to 18 with its edges.
+  constexpr std::size_t most = std::numeric_limits<std::int32_t>::max() / 18;
+  if (scene.triangles.size() > most)
+    throw Error("a picture of " + std::to_string(scene.triangles.size()) +
+                " triangles: the most are " + std::to_string(most));
   SceneModel model;
   Eigen::AlignedBox3d box;
   std::vector<Corners> triangles;
@@ -188,6 +197,7 @@ SceneModel sceneModel(const Scene& scene) {
       addSurface(corners, scene.meshes[scene.triangles[k].mesh].colour, !upright, model.surfaces);
       if (upright) {
         for (const Vector3d& corner : corners) model.casters.push_back(asFloats(corner));
+        ++part.casters;
       }
     }
     for (const std::size_t k : edgesIn[square]) {

@@ -6,7 +6,8 @@
 namespace bumper::drawing {
 
 /// Prepares a valid scene for drawing: surfaces in their meshes' colours; edges of what stands
-/// upright, where it ends or turns; and upright surfaces once more, for shadows.
+/// upright, where it ends or turns; and upright surfaces once more, for shadows. Throws Error if
+/// it has more triangles than OpenGL can count.
 SceneModel sceneModel(const Scene& scene);
 
 /// Three vertices with one normal.

@@ -3,17 +3,17 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace bumper::drawing {
 
 namespace {
 
-using Eigen::AlignedBox2d;
-using Eigen::Vector2d;
+using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-constexpr double trianglesPerSquare = 4.0;
-constexpr int mostSquaresAside = 1024;
+/// m by which boxes are larger than what they hold: a wall may stand on the side of one.
+constexpr double boxMargin = 1e-6;
 
 /// Where a triangle cuts the segment between two points, as a share of the way; nothing if it does
 /// not.
@@ -35,95 +35,69 @@ std::optional<double> cut(const std::array<Vector3d, 3>& corners, const Vector3d
   return share;
 }
 
-AlignedBox2d planOf(const std::array<Vector3d, 3>& corners) {
-  AlignedBox2d plan;
-  for (const Vector3d& corner : corners) plan.extend(Vector2d(corner.head<2>()));
-  return plan;
-}
+/// A line of sight on its way through the tree.
+class Sight {
+ public:
+  Sight(const Vector3d& from, const Vector3d& to) : from_(from), to_(to), way_(to - from) {}
+
+  /// Where the nearest triangle cuts it, as a share of the way; 1 if none does.
+  [[nodiscard]] double nearest() const { return nearest_; }
+
+  // What Eigen::BVIntersect() asks.
+
+  /// Whether it comes through the box before it is cut.
+  [[nodiscard]] bool intersectVolume(const AlignedBox3d& box) const {
+    double enters = 0.0;
+    double leaves = nearest_;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double low = box.min()[axis] - boxMargin - from_[axis];
+      const double high = box.max()[axis] + boxMargin - from_[axis];
+      if (way_[axis] == 0.0) {
+        if (low > 0.0 || high < 0.0) return false;
+        continue;
+      }
+      const double first = low / way_[axis];
+      const double last = high / way_[axis];
+      enters = std::max(enters, std::min(first, last));
+      leaves = std::min(leaves, std::max(first, last));
+    }
+    return enters <= leaves;
+  }
+
+  /// Whether that is all that is asked: never.
+  bool intersectObject(const std::array<Vector3d, 3>& corners) {
+    nearest_ = std::min(nearest_, cut(corners, from_, to_).value_or(1.0));
+    return false;
+  }
+
+ private:
+  Vector3d from_;
+  Vector3d to_;
+  Vector3d way_;
+  double nearest_ = 1.0;
+};
 
 }  // namespace
 
 SightLines::SightLines(const Scene& scene) {
-  triangles_.reserve(scene.triangles.size());
+  std::vector<Corners> triangles;
+  std::vector<AlignedBox3d> boxes;
+  triangles.reserve(scene.triangles.size());
+  boxes.reserve(scene.triangles.size());
   for (const Scene::Triangle& triangle : scene.triangles) {
-    triangles_.push_back(
+    triangles.push_back(
         {scene.corner(triangle, 0), scene.corner(triangle, 1), scene.corner(triangle, 2)});
-    for (const Vector3d& corner : triangles_.back()) box_.extend(corner);
+    boxes.emplace_back();
+    for (const Vector3d& corner : triangles.back()) boxes.back().extend(corner);
+    box_.extend(boxes.back());
   }
-  const Vector3d size = box_.sizes();
-  const double area = std::max(size.x(), 1e-3) * std::max(size.y(), 1e-3);
-  side_ = std::max(std::sqrt(area * trianglesPerSquare / static_cast<double>(triangles_.size())),
-                   std::max({size.x(), size.y(), 1e-3}) / mostSquaresAside);
-  columns_ = static_cast<int>(size.x() / side_) + 1;
-  rows_ = static_cast<int>(size.y() / side_) + 1;
-
-  // Count, then fill.
-  starts_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
-  for (const Corners& corners : triangles_)
-    visitSquares(planOf(corners), [&](std::size_t square) { ++starts_[square + 1]; });
-  for (std::size_t square = 1; square < starts_.size(); ++square)
-    starts_[square] += starts_[square - 1];
-  members_.resize(starts_.back());
-  std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
-  for (std::size_t k = 0; k < triangles_.size(); ++k) {
-    visitSquares(planOf(triangles_[k]), [&](std::size_t square) {
-      members_[next[square]++] = static_cast<std::uint32_t>(k);
-    });
-  }
-}
-
-SightLines::Span SightLines::columnsOf(double low, double high) const {
-  const double left = box_.min().x();
-  return {std::max(0, static_cast<int>(std::max(0.0, (low - left) / side_))),
-          static_cast<int>(std::min<double>(columns_ - 1, (high - left) / side_))};
-}
-
-SightLines::Span SightLines::rowsOf(double low, double high) const {
-  const double bottom = box_.min().y();
-  return {std::max(0, static_cast<int>(std::max(0.0, (low - bottom) / side_))),
-          static_cast<int>(std::min<double>(rows_ - 1, (high - bottom) / side_))};
-}
-
-template <typename Visit>
-void SightLines::visitSquares(const AlignedBox2d& area, const Visit& visit) const {
-  const Span columns = columnsOf(area.min().x(), area.max().x());
-  const Span rows = rowsOf(area.min().y(), area.max().y());
-  for (int row = rows.first; row <= rows.last; ++row) {
-    for (int column = columns.first; column <= columns.last; ++column)
-      visit(static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-            static_cast<std::size_t>(column));
-  }
+  tree_.init(triangles.begin(), triangles.end(), boxes.begin(), boxes.end());
 }
 
 double SightLines::visibleShare(const Vector3d& from, const Vector3d& to) const {
-  AlignedBox2d plan(from.head<2>().cwiseMin(to.head<2>()), from.head<2>().cwiseMax(to.head<2>()));
-  plan = plan.intersection(AlignedBox2d(box_.min().head<2>(), box_.max().head<2>()));
-  if (plan.isEmpty()) return 1.0;
-  double nearest = 1.0;
-  const Vector3d way = to - from;
-  const Span rows = rowsOf(plan.min().y(), plan.max().y());
-  for (int row = rows.first; row <= rows.last; ++row) {
-    // The part of the way that lies in this row of squares.
-    AlignedBox2d part = plan;
-    if (std::abs(way.y()) > 1e-9) {
-      const double low = (box_.min().y() + row * side_ - from.y()) / way.y();
-      const double high = low + side_ / way.y();
-      const double first = from.x() + std::clamp(std::min(low, high), 0.0, 1.0) * way.x();
-      const double last = from.x() + std::clamp(std::max(low, high), 0.0, 1.0) * way.x();
-      part.min().x() = std::min(first, last);
-      part.max().x() = std::max(first, last);
-    }
-    // A hair more: a wall may stand on the border of two squares.
-    const Span columns = columnsOf(part.min().x() - 1e-6, part.max().x() + 1e-6);
-    for (int column = columns.first; column <= columns.last; ++column) {
-      const std::size_t square =
-          static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-          static_cast<std::size_t>(column);
-      for (std::uint32_t k = starts_[square]; k < starts_[square + 1]; ++k)
-        nearest = std::min(nearest, cut(triangles_[members_[k]], from, to).value_or(1.0));
-    }
-  }
-  return nearest;
+  Sight sight(from, to);
+  Eigen::BVIntersect(tree_, sight);
+  return sight.nearest();
 }
 
 int SightLines::hidden(const std::vector<Vector3d>& points, const Vector3d& eye) const {

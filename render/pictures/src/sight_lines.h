@@ -3,17 +3,15 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
+#include <unsupported/Eigen/BVH>
 #include <vector>
 
 #include "bumper/scenes/scene.h"
 
 namespace bumper::drawing {
 
-/// What a scene hides from where. Its triangles are sorted into squares of the ground plan, so that
-/// a line of sight is tested against those near it only.
+/// What a scene hides from where. Its triangles stand in a tree of boxes, so that a line of sight
+/// is tested against those near it only; memory is in proportion to their number, however they lie.
 class SightLines {
  public:
   explicit SightLines(const Scene& scene);
@@ -30,24 +28,9 @@ class SightLines {
 
  private:
   using Corners = std::array<Eigen::Vector3d, 3>;
-  /// Squares from the first to the last, both included.
-  struct Span {
-    int first;
-    int last;
-  };
 
-  [[nodiscard]] Span columnsOf(double low, double high) const;
-  [[nodiscard]] Span rowsOf(double low, double high) const;
-  template <typename Visit>
-  void visitSquares(const Eigen::AlignedBox2d& area, const Visit& visit) const;
-
-  std::vector<Corners> triangles_;
+  Eigen::KdBVH<double, 3, Corners> tree_;
   Eigen::AlignedBox3d box_;
-  double side_ = 1.0;  ///< of a square, m
-  int columns_ = 1;
-  int rows_ = 1;
-  std::vector<std::uint32_t> starts_;   ///< by square, row by row: into members_
-  std::vector<std::uint32_t> members_;  ///< triangles
 };
 
 }  // namespace bumper::drawing

@@ -49,6 +49,7 @@ Image SnapshotRenderer::draw(const Recording& recording, const SnapshotOptions& 
   const drawing::Camera camera = drawing::cameraFor(parts_->sight, recording, run, options);
 
   drawing::Picture picture;
+  picture.mostOverdraw = options.mostOverdraw;
   drawing::WorldPainter painter(camera, picture);
   if (options.showPath) {
     for (std::size_t v = 0; v < run.trails.size(); ++v)

@@ -10,15 +10,17 @@ namespace bumper {
 namespace {
 
 constexpr std::size_t windowSize = std::size_t{64} << 10U;
-/// A file without line breaks is no recording; it is not read into memory to find that out.
-constexpr std::size_t longestLine = std::size_t{64} << 20U;
 
 }  // namespace
 
-LineFile::LineFile(std::filesystem::path file) : file_(std::move(file)) {
+LineFile::LineFile(std::filesystem::path file, std::size_t longest)
+    : file_(std::move(file)), longest_(longest) {
   std::error_code failure;
-  if (!std::filesystem::is_regular_file(file_, failure))
-    throw Error("cannot read " + file_.string() + ": there is no such file");
+  if (!std::filesystem::is_regular_file(file_, failure)) {
+    const bool isSpecial = std::filesystem::is_other(file_, failure);
+    throw Error("cannot read " + file_.string() +
+                (isSpecial ? ": it is no regular file" : ": there is no such file"));
+  }
   stream_.open(file_, std::ios::binary);
   size_ = std::filesystem::file_size(file_, failure);
   if (!stream_ || failure) throw Error("cannot read " + file_.string());
@@ -46,6 +48,11 @@ std::optional<LineFile::Line> LineFile::lineAt(std::uint64_t begin) {
   std::string_view text = bytes(begin, 1);
   for (std::size_t count = windowSize;; count *= 2) {
     const std::size_t length = text.find('\n');
+    if (std::min(length, text.size()) > longest_) {
+      throw Error(file_.string() + ", byte " + std::to_string(begin) +
+                  ": a line is longer than RecordingLimits::lineBytes, " +
+                  std::to_string(longest_) + ", allows");
+    }
     if (length != std::string_view::npos) {
       return Line{.begin = begin,
                   .end = begin + length + 1,
@@ -54,10 +61,6 @@ std::optional<LineFile::Line> LineFile::lineAt(std::uint64_t begin) {
     }
     if (begin + text.size() == size_)
       return Line{.begin = begin, .end = size_, .text = text, .hasBreak = false};
-    if (text.size() >= longestLine) {
-      throw Error(file_.string() + ", byte " + std::to_string(begin) +
-                  ": this is no recording, a line is longer than 64 MB");
-    }
     text = bytes(begin, count);
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -20,7 +21,8 @@ class LineFile {
     bool hasBreak = false;    ///< false: the file ends within or right behind it
   };
 
-  explicit LineFile(std::filesystem::path file);
+  /// Of a longer line than `longest` bytes, lineAt() throws Error.
+  LineFile(std::filesystem::path file, std::size_t longest);
 
   /// Bytes, when it was opened.
   [[nodiscard]] std::uint64_t size() const { return size_; }
@@ -42,6 +44,7 @@ class LineFile {
   std::string_view bytes(std::uint64_t offset, std::size_t count);
 
   std::filesystem::path file_;
+  std::size_t longest_;
   std::ifstream stream_;
   std::uint64_t size_ = 0;
   std::string window_;             ///< the part in memory

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <type_traits>
+#include <utility>
 
 #include "bumper/response/error.h"
 
@@ -173,8 +175,53 @@ void appendScene(std::string& text, const SceneReference& scene) {
 
 // ---- Reading ----
 
+/// Before a line is parsed: what has been parsed is compared and destroyed level by level.
+void checkDepth(std::string_view line, std::size_t most) {
+  std::size_t depth = 0;
+  bool inString = false;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    const char c = line[k];
+    if (c == '"') inString = !inString;
+    if (inString) {
+      if (c == '\\') ++k;
+    } else if (c == '[' || c == '{') {
+      if (++depth > most)
+        throw Error(
+            "its arrays and objects stand deeper in each other than RecordingLimits::depth, " +
+            std::to_string(most) + ", allows");
+    } else if ((c == ']' || c == '}') && depth > 0) {
+      --depth;
+    }
+  }
+}
+
 /// The line as JSON; what the caller reads from it throws nlohmann's exceptions, see reading().
-Json parse(std::string_view line) { return Json::parse(line); }
+Json parse(std::string_view line, const RecordingLimits& limits) {
+  checkDepth(line, limits.depth);
+  return Json::parse(line);
+}
+
+double timeOf(double time, const RecordingLimits& limits) {
+  if (std::abs(time) <= limits.latest) return time;
+  std::ostringstream message;
+  message << "its time is " << time << " s: RecordingLimits::latest, " << limits.latest
+          << " s, is the most either way";
+  throw Error(message.str());
+}
+
+/// nlohmann would convert any number to any other.
+template <typename Integer>
+Integer integerOf(const Json& value, const char* name) {
+  const bool fits =
+      value.is_number_unsigned()
+          ? std::in_range<Integer>(value.get<std::uint64_t>())
+          : value.is_number_integer() && std::in_range<Integer>(value.get<std::int64_t>());
+  if (fits) return value.get<Integer>();
+  throw Error(
+      std::string(name) + " is " + value.dump(-1, ' ', true, Json::error_handler_t::replace) +
+      ": it must be an integer from " + std::to_string(std::numeric_limits<Integer>::min()) +
+      " to " + std::to_string(std::numeric_limits<Integer>::max()));
+}
 
 /// Calls what reads a line; whatever that finds wrong becomes an Error.
 template <typename Reading>
@@ -249,7 +296,7 @@ SceneReference sceneOf(const Json& object) {
   scene.up = object.value("up", std::string());
   scene.scale = object.at("scale").get<double>();
   scene.builtIn = object.value("builtIn", std::string());
-  scene.triangles = object.at("triangles").get<std::size_t>();
+  scene.triangles = integerOf<std::size_t>(object.at("triangles"), "triangles");
   scene.hash = hashOf(object.at("hash").get<std::string>());
   return scene;
 }
@@ -266,7 +313,7 @@ void requireFormat(const Json& header) {
   if (!header.is_object() || !header.contains("format") || header["format"] != formatName)
     throw Error("this is no recording: its first line does not say \"format\":\"" +
                 std::string(formatName) + "\"");
-  const int version = header.at("version").get<int>();
+  const int version = integerOf<int>(header.at("version"), "version");
   if (version != formatVersion) {
     throw Error("this recording is of format version " + std::to_string(version) + ", known is " +
                 std::to_string(formatVersion));
@@ -276,9 +323,18 @@ void requireFormat(const Json& header) {
     throw Error("the columns of its poses are not those of format version 1");
 }
 
+void checkNames(const HeaderLine& header, std::size_t most) {
+  std::size_t names = header.run.parameters.size() + header.vehicles.size();
+  for (const RecordedVehicle& vehicle : header.vehicles) names += vehicle.settings.size();
+  if (names > most)
+    throw Error("its " + std::to_string(names) +
+                " vehicles, parameters and settings are more than RecordingLimits::names, " +
+                std::to_string(most) + ", allows");
+}
+
 std::optional<std::uint64_t> offsetOf(const Json& value) {
   if (value.is_null()) return std::nullopt;
-  return value.get<std::uint64_t>();
+  return integerOf<std::uint64_t>(value, "a byte of the file");
 }
 
 }  // namespace
@@ -384,20 +440,21 @@ void requireUtf8(const std::string& name) {
   }
 }
 
-LineStart startOf(std::string_view line) {
+LineStart startOf(std::string_view line, const RecordingLimits& limits) {
   if (line.starts_with(posesStart)) {
     double time = 0.0;
     const char* end = line.data() + line.size();
     const auto read = std::from_chars(line.data() + posesStart.size(), end, time);
     if (read.ec == std::errc() && read.ptr != end && *read.ptr == ',')
-      return {.kind = LineKind::poses, .time = time};
+      return {.kind = LineKind::poses, .time = timeOf(time, limits)};
   }
   return reading([&]() -> LineStart {
-    const Json object = parse(line);
+    const Json object = parse(line, limits);
     const std::string kind = object.at("kind").get<std::string>();
-    if (kind == "poses") return {.kind = LineKind::poses, .time = object.at("time").get<double>()};
-    if (kind == "impact")
-      return {.kind = LineKind::impact, .time = object.at("time").get<double>()};
+    if (kind == "poses" || kind == "impact") {
+      return {.kind = kind == "poses" ? LineKind::poses : LineKind::impact,
+              .time = timeOf(object.at("time").get<double>(), limits)};
+    }
     if (kind == "index") return {.kind = LineKind::index};
     if (kind == "end") return {.kind = LineKind::end};
     throw Error("its kind is \"" + kind + "\", known are poses, impact, index and end");
@@ -406,9 +463,9 @@ LineStart startOf(std::string_view line) {
 
 bool isWhole(std::string_view line) { return Json::accept(line); }
 
-HeaderLine parseHeader(std::string_view line) {
+HeaderLine parseHeader(std::string_view line, const RecordingLimits& limits) {
   return reading([&] {
-    const Json object = parse(line);
+    const Json object = parse(line, limits);
     requireFormat(object);
     HeaderLine header;
     header.libraryVersion = object.at("library").get<std::string>();
@@ -417,14 +474,15 @@ HeaderLine parseHeader(std::string_view line) {
     for (const Json& vehicle : object.at("vehicles")) {
       header.vehicles.push_back(vehicleOf(vehicle));
     }
+    checkNames(header, limits.names);
     return header;
   });
 }
 
-PoseLine parsePoses(std::string_view line) {
+PoseLine parsePoses(std::string_view line, const RecordingLimits& limits) {
   return reading([&] {
-    const Json object = parse(line);
-    const double time = object.at("time").get<double>();
+    const Json object = parse(line, limits);
+    const double time = timeOf(object.at("time").get<double>(), limits);
     PoseLine poses;
     for (const Json& row : object.at("poses")) {
       if (row.size() != poseColumns.size())
@@ -437,17 +495,17 @@ PoseLine parsePoses(std::string_view line) {
       pose.orientation = Eigen::Quaterniond(number(4), number(5), number(6), number(7));
       pose.velocity = {number(8), number(9), number(10)};
       pose.yawRate = number(11);
-      poses.emplace_back(row.at(0).get<std::size_t>(), pose);
+      poses.emplace_back(integerOf<std::size_t>(row.at(0), "a vehicle's index"), pose);
     }
     return poses;
   });
 }
 
-RecordedImpact parseImpact(std::string_view line) {
+RecordedImpact parseImpact(std::string_view line, const RecordingLimits& limits) {
   return reading([&] {
-    const Json object = parse(line);
+    const Json object = parse(line, limits);
     ImpactEvent event;
-    event.time = object.at("time").get<double>();
+    event.time = timeOf(object.at("time").get<double>(), limits);
     event.vehicle = object.at("vehicle").get_ref<const std::string&>();
     event.barrier = object.at("barrier").get_ref<const std::string&>();
     event.material = object.at("material").get_ref<const std::string&>();
@@ -455,7 +513,7 @@ RecordedImpact parseImpact(std::string_view line) {
     event.law = oneOf(laws, object.at("law"), "law");
     event.regime = oneOf(regimes, object.at("regime"), "regime");
     event.outcome = oneOf(outcomes, object.at("outcome"), "outcome");
-    event.triangle = object.at("triangle").get<int>();
+    event.triangle = integerOf<int>(object.at("triangle"), "triangle");
     event.contact = vectorOf<Eigen::Vector3d>(object.at("contact"));
     event.normal = vectorOf<Eigen::Vector3d>(object.at("normal"));
     event.arm = vectorOf<Vector2>(object.at("arm"));
@@ -466,23 +524,24 @@ RecordedImpact parseImpact(std::string_view line) {
   });
 }
 
-IndexLine parseIndex(std::string_view line) {
+IndexLine parseIndex(std::string_view line, const RecordingLimits& limits) {
   return reading([&] {
-    const Json object = parse(line);
+    const Json object = parse(line, limits);
     IndexLine index;
     index.previous = offsetOf(object.at("previous"));
     for (const Json& entry : object.at("impacts")) {
-      index.impacts.emplace_back(entry.at(0).get<double>(), entry.at(1).get<std::uint64_t>());
+      index.impacts.emplace_back(entry.at(0).get<double>(),
+                                 integerOf<std::uint64_t>(entry.at(1), "a byte of the file"));
     }
     return index;
   });
 }
 
-EndLine parseEnd(std::string_view line) {
+EndLine parseEnd(std::string_view line, const RecordingLimits& limits) {
   return reading([&] {
-    const Json object = parse(line);
+    const Json object = parse(line, limits);
     return EndLine{.index = offsetOf(object.at("index")),
-                   .impacts = object.at("impacts").get<std::uint64_t>()};
+                   .impacts = integerOf<std::uint64_t>(object.at("impacts"), "impacts")};
   });
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bumper/render/recording.h"
+#include "bumper/render/recording_limits.h"
 #include "bumper/render/run_description.h"
 
 namespace bumper {
@@ -35,7 +36,8 @@ void appendEnd(std::string& text, std::optional<std::uint64_t> index, std::uint6
 /// Throws Error unless the name is UTF-8.
 void requireUtf8(const std::string& name);
 
-// Reading. All throw Error if the line is not what it should be; the caller adds its number.
+// Reading. All throw Error if the line is not what it should be or beyond a limit; the caller adds
+// its number.
 
 enum class LineKind { poses, impact, index, end };
 struct LineStart {
@@ -43,7 +45,7 @@ struct LineStart {
   double time = 0.0;  ///< s; 0 where the line has none
 };
 /// Looks no further than it must: a line of poses as the writer makes it is not parsed.
-LineStart startOf(std::string_view line);
+LineStart startOf(std::string_view line, const RecordingLimits& limits);
 bool isWhole(std::string_view line);  ///< a JSON object from its first to its last byte
 
 struct HeaderLine {
@@ -51,24 +53,24 @@ struct HeaderLine {
   std::vector<RecordedVehicle> vehicles;
   std::string libraryVersion;
 };
-HeaderLine parseHeader(std::string_view line);
+HeaderLine parseHeader(std::string_view line, const RecordingLimits& limits);
 
 /// The poses of a line, each with its vehicle's index.
 using PoseLine = std::vector<std::pair<std::size_t, RecordedPose>>;
-PoseLine parsePoses(std::string_view line);
+PoseLine parsePoses(std::string_view line, const RecordingLimits& limits);
 
-RecordedImpact parseImpact(std::string_view line);
+RecordedImpact parseImpact(std::string_view line, const RecordingLimits& limits);
 
 struct IndexLine {
   std::optional<std::uint64_t> previous;
   std::vector<IndexedImpact> impacts;
 };
-IndexLine parseIndex(std::string_view line);
+IndexLine parseIndex(std::string_view line, const RecordingLimits& limits);
 
 struct EndLine {
   std::optional<std::uint64_t> index;
   std::uint64_t impacts = 0;
 };
-EndLine parseEnd(std::string_view line);
+EndLine parseEnd(std::string_view line, const RecordingLimits& limits);
 
 }  // namespace bumper

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <limits>
+#include <sstream>
 #include <utility>
 
 #include "bumper/response/error.h"
@@ -46,7 +48,8 @@ bool contains(const RecordingSpan& span, double time) {
 
 class RecordingReader::Implementation {
  public:
-  explicit Implementation(const std::filesystem::path& file) : file_(file), lines_(file) {
+  Implementation(const std::filesystem::path& file, const RecordingLimits& limits)
+      : file_(file), limits_(limits), lines_(file, limits.lineBytes) {
     readHeader();
     findEnd();
     findTimes();
@@ -61,6 +64,7 @@ class RecordingReader::Implementation {
     check(span);
     Recording recording = withVehicles(header_.vehicles);
     addPoses(span, recording);
+    checkDuration(recording);
     addImpacts(span, recording);
     return recording;
   }
@@ -93,7 +97,7 @@ class RecordingReader::Implementation {
     const auto line = lines_.lineAt(0);
     header_ = naming(0, [&] {
       if (!line) throw Error("the file is empty; a recording has a first line");
-      return parseHeader(line->text);
+      return parseHeader(line->text, limits_);
     });
     naming(0, [&] { return withVehicles(header_.vehicles); });
     bodyBegin_ = line->end;
@@ -109,8 +113,8 @@ class RecordingReader::Implementation {
       return;
     }
     end_ = naming(begin, [&]() -> std::optional<EndLine> {
-      if (startOf(last->text).kind != LineKind::end) return {};
-      return parseEnd(last->text);
+      if (startOf(last->text, limits_).kind != LineKind::end) return {};
+      return parseEnd(last->text, limits_);
     });
   }
 
@@ -128,7 +132,7 @@ class RecordingReader::Implementation {
   }
 
   LineStart startAt(const LineFile::Line& line) {
-    return naming(line.begin, [&] { return startOf(line.text); });
+    return naming(line.begin, [&] { return startOf(line.text, limits_); });
   }
 
   /// The first line of poses that begins in [begin, end), where `begin` is a line's beginning.
@@ -164,6 +168,22 @@ class RecordingReader::Implementation {
     return low;
   }
 
+  void checkDuration(const Recording& recording) const {
+    double first = std::numeric_limits<double>::infinity();
+    double last = -first;
+    for (const RecordedVehicle& vehicle : recording.vehicles()) {
+      if (vehicle.poses.empty()) continue;
+      first = std::min(first, vehicle.poses.front().time);
+      last = std::max(last, vehicle.poses.back().time);
+    }
+    if (!(last - first > limits_.seconds)) return;
+    std::ostringstream message;
+    message << file_.string() << ": poses that reach over " << last - first
+            << " s are more than RecordingLimits::seconds, " << limits_.seconds
+            << " s, allows: read a part of them or allow more";
+    throw Error(message.str());
+  }
+
   void addPoses(const RecordingSpan& span, Recording& recording) {
     std::vector<double> due(header_.vehicles.size(), -std::numeric_limits<double>::infinity());
     std::optional<std::uint64_t> last;
@@ -181,7 +201,7 @@ class RecordingReader::Implementation {
       if (start.time > span.to) break;
       if (std::ranges::none_of(due, [&](double time) { return start.time >= time; })) continue;
       naming(line->begin, [&] {
-        for (const auto& [vehicle, pose] : parsePoses(line->text)) {
+        for (const auto& [vehicle, pose] : parsePoses(line->text, limits_)) {
           if (vehicle < due.size() && pose.time < due[vehicle]) continue;
           recording.addPose(vehicle, pose);
           due[vehicle] = pose.time + (1.0 - spacingSlack) * span.poseSpacing;
@@ -191,7 +211,7 @@ class RecordingReader::Implementation {
     // The last line counts for every vehicle, due or not.
     if (!last) return;
     naming(*last, [&] {
-      for (const auto& [vehicle, pose] : parsePoses(lines_.lineAt(*last)->text)) {
+      for (const auto& [vehicle, pose] : parsePoses(lines_.lineAt(*last)->text, limits_)) {
         const bool isThere = vehicle < due.size() && !recording.vehicles()[vehicle].poses.empty() &&
                              recording.vehicles()[vehicle].poses.back().time >= pose.time;
         if (!isThere) recording.addPose(vehicle, pose);
@@ -202,7 +222,7 @@ class RecordingReader::Implementation {
   void addImpacts(const RecordingSpan& span, Recording& recording) {
     for (const IndexedImpact& indexed : impactsWithin(span)) {
       naming(indexed.second, [&] {
-        const RecordedImpact impact = parseImpact(lines_.lineAt(indexed.second)->text);
+        const RecordedImpact impact = parseImpact(lines_.lineAt(indexed.second)->text, limits_);
         if (impact.event().time != indexed.first) throw Error("the index gives another time");
         recording.addImpact(impact.event());
       });
@@ -258,9 +278,13 @@ class RecordingReader::Implementation {
                   ", where there is none" + advice);
     return naming(begin, [&] {
       try {
-        IndexLine line = parseIndex(lines_.lineAt(begin)->text);
+        IndexLine line = parseIndex(lines_.lineAt(begin)->text, limits_);
+        // Each impact once: a line that is named many times is not read many times.
+        std::uint64_t least = std::max(bodyBegin_, line.previous.value_or(0));
         for (const auto& [time, place] : line.impacts) {
-          if (place < bodyBegin_ || place >= begin) throw Error("an impact lies outside");
+          if (place < least || place >= begin)
+            throw Error("an impact lies outside or out of order");
+          least = place + 1;
         }
         return line;
       } catch (const Error& error) {
@@ -270,6 +294,7 @@ class RecordingReader::Implementation {
   }
 
   std::filesystem::path file_;
+  RecordingLimits limits_;
   LineFile lines_;
   HeaderLine header_;
   std::uint64_t bodyBegin_ = 0;  ///< behind the header
@@ -279,8 +304,8 @@ class RecordingReader::Implementation {
   std::optional<double> lastTime_;
 };
 
-RecordingReader::RecordingReader(const std::filesystem::path& file)
-    : implementation_(std::make_unique<Implementation>(file)) {}
+RecordingReader::RecordingReader(const std::filesystem::path& file, const RecordingLimits& limits)
+    : implementation_(std::make_unique<Implementation>(file, limits)) {}
 RecordingReader::RecordingReader(RecordingReader&& other) noexcept = default;
 RecordingReader& RecordingReader::operator=(RecordingReader&& other) noexcept = default;
 RecordingReader::~RecordingReader() = default;
@@ -307,8 +332,9 @@ std::vector<RecordedImpact> RecordingReader::impacts(const RecordingSpan& span) 
   return implementation_->impacts(span);
 }
 
-Recording readRecording(const std::filesystem::path& file, RunDescription* run) {
-  RecordingReader reader(file);
+Recording readRecording(const std::filesystem::path& file, RunDescription* run,
+                        const RecordingLimits& limits) {
+  RecordingReader reader(file, limits);
   if (run != nullptr) *run = reader.run();
   return reader.read();
 }

@@ -66,9 +66,13 @@ void addInOrder(const Recording& recording, RecordingWriter& writer) {
 }  // namespace
 
 RecordingWriter::RecordingWriter(std::filesystem::path file, RunDescription run)
+    : RecordingWriter(file, file, std::move(run)) {}
+
+RecordingWriter::RecordingWriter(std::filesystem::path file, const std::filesystem::path& path,
+                                 RunDescription run)
     : file_(std::move(file)), run_(std::move(run)) {
   naming(file_, [&] { check(run_.scene); });
-  stream_.open(file_, std::ios::binary | std::ios::trunc);
+  stream_.open(path, std::ios::binary | std::ios::trunc);
   if (!stream_) throw Error("cannot write " + file_.string() + ": its folder must be writable");
 }
 
@@ -156,6 +160,7 @@ void RecordingWriter::close() {
     stream_.close();
     requireWritten();
   });
+  syncToDisk(file_);
 }
 
 void RecordingWriter::requireOpen() const {
@@ -206,7 +211,7 @@ void RecordingWriter::handOver() {
 void writeRecording(const Recording& recording, const std::filesystem::path& file,
                     const RunDescription& run) {
   OutputFile output(file);
-  RecordingWriter writer(output.beside(), run);
+  RecordingWriter writer(file, output.path(), run);
   for (const RecordedVehicle& vehicle : recording.vehicles()) {
     writer.addVehicle(vehicle.name, vehicle.parameters, vehicle.settings);
   }

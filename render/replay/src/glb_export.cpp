@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <functional>
 #include <map>
 #include <numbers>
@@ -20,6 +19,7 @@
 #include "run_excerpt.h"
 #include "snapshot_input.h"
 #include "speed_colours.h"
+#include "text.h"
 #include "vehicle_shape.h"
 
 namespace bumper {
@@ -257,18 +257,16 @@ class GlbExport {
     for (const drawing::DrawnImpact& impact : run_.impacts) {
       const ImpactEvent& event = impact.event;
       const bool weak = event.deltaV < drawing::weakShare * worst->event.deltaV;
-      std::array<char, 64> label{};
-      std::snprintf(label.data(), label.size(), "impact %zu, %.1f m/s", impact.number,
-                    event.deltaV);
+      const std::string label = "impact " + std::to_string(impact.number) + ", " +
+                                drawing::fixed(event.deltaV, 1) + " m/s";
       const std::size_t mesh = addMesh(
-          label.data(),
-          Json::array(
-              {primitive(weak ? ball(0.12, 0.0) : pin(fullArrow * event.deltaV / full), looks)}));
+          label, Json::array({primitive(
+                     weak ? ball(0.12, 0.0) : pin(fullArrow * event.deltaV / full), looks)}));
       // Its x axis is the wall's normal, level.
       const double yaw = std::atan2(event.normal.y(), event.normal.x());
       const Quaternionf turn(Eigen::AngleAxisf(static_cast<float>(yaw), Vector3f::UnitZ()));
       const std::size_t node =
-          file_.addNode({{"name", label.data()},
+          file_.addNode({{"name", label},
                          {"mesh", mesh},
                          {"translation", toJson(Vector3d(event.contact - middle_))},
                          {"rotation", toJson(turn)},

@@ -28,6 +28,14 @@ void requireTiming(double value, double low, double high, const char* name) {
   throw Error(message.str());
 }
 
+[[noreturn]] void failByFrames(const ReplayTiming& timing, double from, double to) {
+  std::ostringstream message;
+  message << "a replay from " << from << " to " << to
+          << " s has more than ReplayTiming::mostFrames, " << timing.mostFrames
+          << ", allows: replay a part of it, or faster";
+  throw Error(message.str());
+}
+
 struct Span {
   double from = std::numeric_limits<double>::infinity();
   double to = -std::numeric_limits<double>::infinity();
@@ -120,8 +128,17 @@ std::vector<double> replayTimes(const Recording& recording, const ReplayTiming& 
   const Span span = spanOf(recording, timing);
   const std::vector<double> impacts = slowingImpacts(recording);
   const double step = timing.speed / timing.framesPerSecond;
+  // Slow motion only makes more of them; nothing is gained by counting on.
+  if (!((span.to - span.from) / step < static_cast<double>(timing.mostFrames)))
+    failByFrames(timing, span.from, span.to);
   std::vector<double> times;
   for (double time = span.from; time <= span.to;) {
+    if (!times.empty() && time <= times.back()) {
+      std::ostringstream message;
+      message << "there is no replay at " << time << " s: a frame's step is lost in the rounding";
+      throw Error(message.str());
+    }
+    if (times.size() == timing.mostFrames) failByFrames(timing, span.from, span.to);
     times.push_back(time);
     // By the slowness half a step ahead, so that the way into slow motion is that out of it; a step
     // that would leap over the beginning of slow motion is cut into its hundredths.
@@ -163,7 +180,7 @@ void writeReplayVideo(const Scene& scene, const Recording& recording,
                       const ReplayProgress& progress) {
   const std::size_t all = replayTimes(recording, options.timing).size();
   VideoWriter video(file, options.picture.width, options.picture.height,
-                    options.timing.framesPerSecond);
+                    options.timing.framesPerSecond, options.patience);
   std::size_t done = 0;
   drawReplay(scene, recording, options, [&](const Image& frame) {
     video.add(frame);

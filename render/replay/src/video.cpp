@@ -1,7 +1,11 @@
 #include "bumper/render/video.h"
 
+#include <chrono>
+#include <cstddef>
 #include <cstdlib>
+#include <locale>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -73,15 +77,22 @@ std::string textOf(double number) {
 
 class VideoWriter::Implementation {
  public:
-  Implementation(const std::filesystem::path& file, int width, int height, double framesPerSecond)
-      : file_(file), output_(file), width_(width), height_(height) {
+  Implementation(const std::filesystem::path& file, int width, int height, double framesPerSecond,
+                 double patience)
+      : file_(file), width_(width), height_(height) {
     const Kind kind = kindOf(file);
     if (!(framesPerSecond >= 1.0 && framesPerSecond <= kind.fastest)) {
       throw Error("cannot write " + file.string() + " with " + textOf(framesPerSecond) +
                   " frames per second: they must lie in 1 to " + textOf(kind.fastest));
     }
-    // Tried here, so that a folder that is missing is not ffmpeg's to explain.
-    output_.write({});
+    constexpr double week = 7 * 86400.0;
+    if (!(patience > 0.0 && patience <= week)) {
+      throw Error("cannot write " + file.string() + " with a patience of " + textOf(patience) +
+                  " s: it must lie above 0 and up to " + textOf(week));
+    }
+    patience_ =
+        std::chrono::ceil<std::chrono::milliseconds>(std::chrono::duration<double>(patience));
+    output_.emplace(file);
     std::vector<std::string> arguments{"-loglevel",
                                        "error",
                                        "-y",
@@ -96,16 +107,8 @@ class VideoWriter::Implementation {
                                        "-i",
                                        "pipe:0"};
     arguments.insert(arguments.end(), kind.arguments.begin(), kind.arguments.end());
-    arguments.insert(arguments.end(), {"-f", kind.format, "file:" + output_.beside().string()});
-    const char* given = std::getenv(programVariable);
-    const std::string program = given != nullptr && *given != '\0' ? given : "ffmpeg";
-    try {
-      ffmpeg_.emplace(program, arguments, ChildStreams{.input = true, .errors = true});
-    } catch (const std::system_error& error) {
-      throw Error("cannot write " + file.string() + ": the program " + program +
-                  " cannot be started: " + error.code().message() + "; install ffmpeg or set " +
-                  programVariable + " to where it is");
-    }
+    arguments.insert(arguments.end(), {"-f", kind.format, filmName()});
+    start(ffmpeg_, arguments, {.input = true, .errors = true});
   }
 
   void add(const Image& picture) {
@@ -114,34 +117,88 @@ class VideoWriter::Implementation {
                   std::to_string(picture.width()) + " x " + std::to_string(picture.height()) +
                   " pixels, the film " + std::to_string(width_) + " x " + std::to_string(height_));
     }
-    if (!ffmpeg_->write(std::as_bytes(std::span(picture.pixels())))) {
-      ffmpeg_->wait();
-      fail();
+    if (!ffmpeg_->write(std::as_bytes(std::span(picture.pixels())), patience_)) {
+      // One that has closed its input ends by itself and says why; a deaf one does not.
+      ffmpeg_->hasStalled() ? ffmpeg_->kill() : ffmpeg_->wait(patience_);
+      fail(*ffmpeg_, "failed");
     }
+    ++frames_;
   }
 
   void finish() {
-    if (!hasSucceeded(ffmpeg_->wait())) fail();
-    output_.moveToPlace();
+    if (!hasSucceeded(ffmpeg_->wait(patience_))) fail(*ffmpeg_, "failed");
+    if (frames_ == 0) throw Error("cannot write " + file_.string() + ": no picture was added");
+    checkFrames();
+    output_->moveToPlace();
   }
 
  private:
-  [[noreturn]] void fail() const {
-    const std::string words = ffmpeg_->lastErrorLine();
-    throw Error("cannot write " + file_.string() + ": ffmpeg failed" +
+  using Patience = ChildProcess::Patience;
+
+  [[nodiscard]] std::string filmName() const { return "file:" + output_->path().string(); }
+
+  void start(std::optional<ChildProcess>& child, const std::vector<std::string>& arguments,
+             ChildStreams streams) const {
+    const char* given = std::getenv(programVariable);
+    const std::string program = given != nullptr && *given != '\0' ? given : "ffmpeg";
+    try {
+      child.emplace(program, arguments, streams);
+    } catch (const std::system_error& error) {
+      throw Error("cannot write " + file_.string() + ": the program " + program +
+                  " cannot be started: " + error.code().message() + "; install ffmpeg or set " +
+                  programVariable + " to where it is");
+    }
+  }
+
+  /// ffmpeg may say nothing of what it could not write. Its list of the film's packets, each a
+  /// frame, has a line for each besides comments; nothing is decoded for it.
+  void checkFrames() const {
+    std::optional<ChildProcess> reader;
+    start(reader,
+          {"-loglevel", "error", "-i", filmName(), "-map", "0:v", "-c", "copy", "-f", "framecrc",
+           "pipe:1"},
+          {.output = true, .errors = true});
+    std::size_t found = 0;
+    char before = '\n';
+    for (std::string text; reader->read(text, patience_);) {
+      for (const char c : text) {
+        if (before == '\n' && c != '#' && c != '\n') ++found;
+        before = c;
+      }
+    }
+    const bool isRead =
+        hasSucceeded(reader->hasStalled() ? reader->kill() : reader->wait(patience_));
+    if (!isRead) fail(*reader, "cannot read what it wrote");
+    if (found != frames_) {
+      fail(*ffmpeg_,
+           "left " + std::to_string(found) + " of " + std::to_string(frames_) + " frames in it");
+    }
+  }
+
+  [[noreturn]] void fail(const ChildProcess& child, const std::string& what) const {
+    const std::string words = child.lastErrorLine();
+    throw Error("cannot write " + file_.string() + ": ffmpeg " +
+                (child.hasStalled()
+                     ? "did nothing for " +
+                           textOf(std::chrono::duration<double>(*patience_).count()) +
+                           " s and was stopped"
+                     : what) +
                 (words.empty() ? "" : ", saying \"" + words + "\""));
   }
 
   std::filesystem::path file_;
-  OutputFile output_;
   int width_;
   int height_;
+  Patience patience_;
+  std::optional<OutputFile> output_;
   std::optional<ChildProcess> ffmpeg_;  // ends before what it writes is removed
+  std::size_t frames_ = 0;
 };
 
 VideoWriter::VideoWriter(const std::filesystem::path& file, int width, int height,
-                         double framesPerSecond)
-    : implementation_(std::make_unique<Implementation>(file, width, height, framesPerSecond)) {}
+                         double framesPerSecond, double patience)
+    : implementation_(
+          std::make_unique<Implementation>(file, width, height, framesPerSecond, patience)) {}
 
 VideoWriter::~VideoWriter() = default;
 

@@ -1,44 +1,50 @@
 #include "bumper/base/child_process.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <system_error>
+#include <thread>
 #include <utility>
+
+#include "bumper/base/descriptor.h"
 
 namespace bumper {
 
 namespace {
 
-/// A file descriptor that is closed with its scope unless it is released.
-class Descriptor {
- public:
-  Descriptor() = default;
-  ~Descriptor() {
-    if (number_ >= 0) close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  Descriptor(Descriptor&&) = delete;
-  Descriptor& operator=(Descriptor&&) = delete;
-
-  void set(int number) { number_ = number; }
-  [[nodiscard]] int number() const { return number_; }
-  int release() { return std::exchange(number_, -1); }
-
- private:
-  int number_ = -1;
-};
-
 void require(bool succeeded) {
   if (!succeeded) throw std::system_error(errno, std::generic_category());
+}
+
+/// Whether a descriptor is ready, or its other end gone, within the time.
+bool isReadyIn(int descriptor, short events, std::chrono::milliseconds time) {
+  const auto until = std::chrono::steady_clock::now() + time;
+  for (;;) {
+    const auto left =
+        std::chrono::ceil<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
+    pollfd waited{descriptor, events, 0};
+    const int ready = poll(&waited, 1, static_cast<int>(std::max<std::int64_t>(left.count(), 0)));
+    if (ready >= 0 || errno != EINTR) return ready > 0;
+  }
+}
+
+/// Leaves its status to be waited for. True for one of which nothing is known.
+bool hasEnded(pid_t child) {
+  siginfo_t state{};
+  return waitid(P_PID, static_cast<id_t>(child), &state, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+         state.si_pid != 0;
 }
 
 /// What posix_spawn() is given.
@@ -106,16 +112,16 @@ ChildProcess::ChildProcess(const std::string& program, const std::vector<std::st
   if (streams.input) {
     // A socket rather than a pipe: writing to one without a reader raises no signal.
     require(socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) == 0);
-    childInput.set(ends[0]);
-    input.set(ends[1]);
+    childInput = Descriptor(ends[0]);
+    input = Descriptor(ends[1]);
   }
   if (streams.output) {
     require(pipe2(ends.data(), O_CLOEXEC) == 0);
-    output.set(ends[0]);
-    childOutput.set(ends[1]);
+    output = Descriptor(ends[0]);
+    childOutput = Descriptor(ends[1]);
   }
   if (streams.errors) {
-    errors.set(memfd_create("standard error", MFD_CLOEXEC));
+    errors = Descriptor(memfd_create("standard error", MFD_CLOEXEC));
     require(errors.number() >= 0);
   }
   SpawnSettings settings;
@@ -134,19 +140,51 @@ ChildProcess::~ChildProcess() {
     if (descriptor >= 0) close(descriptor);
 }
 
-bool ChildProcess::write(std::span<const std::byte> bytes) {
+bool ChildProcess::write(std::span<const std::byte> bytes, Patience patience) {
   while (!bytes.empty()) {
-    const ssize_t sent = send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    const ssize_t sent =
+        send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL | (patience ? MSG_DONTWAIT : 0));
     if (sent < 0 && errno == EINTR) continue;
+    if (sent < 0 && errno == EAGAIN) {
+      if (isReadyIn(input_, POLLOUT, *patience)) continue;
+      hasStalled_ = true;
+      return false;
+    }
     if (sent < 0) return false;
     bytes = bytes.subspan(static_cast<std::size_t>(sent));
   }
   return true;
 }
 
-int ChildProcess::wait() {
+bool ChildProcess::read(std::string& text, Patience patience) {
+  std::array<char, 65536> block{};
+  for (;;) {
+    if (patience && !isReadyIn(output_, POLLIN, *patience)) {
+      hasStalled_ = true;
+      return false;
+    }
+    const ssize_t got = ::read(output_, block.data(), block.size());
+    if (got < 0 && errno == EINTR) continue;
+    text.assign(block.data(), got > 0 ? static_cast<std::size_t>(got) : 0);
+    return got > 0;
+  }
+}
+
+int ChildProcess::wait(Patience patience) {
   if (input_ >= 0) close(std::exchange(input_, -1));
   if (id_ < 0) return status_;
+  if (patience) {
+    // Ever less often: most end at once.
+    constexpr std::chrono::milliseconds longest{50};
+    const auto until = std::chrono::steady_clock::now() + *patience;
+    for (std::chrono::milliseconds pause{1}; !hasEnded(id_); pause = std::min(2 * pause, longest)) {
+      if (std::chrono::steady_clock::now() >= until) {
+        hasStalled_ = true;
+        return kill();
+      }
+      std::this_thread::sleep_for(pause);
+    }
+  }
   pid_t waited = 0;
   do {
     waited = waitpid(id_, &status_, 0);
@@ -158,7 +196,7 @@ int ChildProcess::wait() {
 
 int ChildProcess::kill() {
   if (id_ >= 0) ::kill(id_, SIGKILL);
-  return wait();
+  return wait({});
 }
 
 std::string ChildProcess::lastErrorLine() const {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "bumper/base/output_file.h"
 #include "file_scene.h"
 
 namespace bumper {
@@ -114,10 +115,24 @@ void saveScene(const Scene& scene, const std::filesystem::path& file) {
   try {
     validate(scene);
     const std::unique_ptr<aiScene> source = toAssimp(scene, format.up);
+    // In memory: assimp does not notice a full disk.
     Assimp::Exporter exporter;
-    if (exporter.Export(source.get(), format.id, file.string(), 0) != aiReturn_SUCCESS) {
-      throw Error(exporter.GetErrorString());
+    Assimp::ExportProperties properties;
+    properties.SetPropertyString(AI_CONFIG_EXPORT_BLOB_NAME, file.filename().string());
+    const aiExportDataBlob* blob = exporter.ExportToBlob(source.get(), format.id, 0, &properties);
+    if (blob == nullptr) throw Error(exporter.GetErrorString());
+    // An OBJ file's materials are a file beside it; that has to be there first.
+    std::vector<std::unique_ptr<OutputFile>> outputs;
+    for (; blob != nullptr; blob = blob->next) {
+      std::filesystem::path place = file;
+      if (blob->name.length > 0)
+        place.replace_extension(
+            std::filesystem::path(std::string("a.") + blob->name.C_Str()).extension());
+      outputs.push_back(std::make_unique<OutputFile>(place));
+      outputs.back()->write({{static_cast<const char*>(blob->data), blob->size}});
     }
+    for (auto output = outputs.rbegin(); output != outputs.rend(); ++output)
+      (*output)->moveToPlace();
   } catch (const std::exception& error) {
     throw fileError(file, std::string("cannot be written: ") + error.what());
   }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 namespace bumper {
@@ -16,7 +17,7 @@ struct Rgb {
   bool operator==(const Rgb&) const = default;
 };
 
-/// A picture: rows from the top, pixels from the left.
+/// A picture: rows from the top, pixels from the left. One that was moved from is 0 × 0.
 class Image {
  public:
   /// The largest width and height, pixels.
@@ -24,6 +25,19 @@ class Image {
 
   /// Of one colour. Throws Error unless width and height lie in 1 to maxSide.
   Image(int width, int height, Rgb fill = {});
+  Image(const Image&) = default;
+  Image& operator=(const Image&) = default;
+  Image(Image&& other) noexcept
+      : width_(std::exchange(other.width_, 0)),
+        height_(std::exchange(other.height_, 0)),
+        pixels_(std::exchange(other.pixels_, {})) {}
+  Image& operator=(Image&& other) noexcept {
+    width_ = std::exchange(other.width_, 0);
+    height_ = std::exchange(other.height_, 0);
+    pixels_ = std::exchange(other.pixels_, {});
+    return *this;
+  }
+  ~Image() = default;
 
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
@@ -49,13 +63,17 @@ class Image {
   std::vector<Rgb> pixels_;
 };
 
-/// Writes a PNG file of 8-bit RGB. Throws Error, naming the file, if it cannot be written; nothing
-/// half-written then remains.
+/// Writes a PNG file of 8-bit RGB. Throws Error, naming the file, if it cannot be written or the
+/// picture has no pixels; nothing half-written then remains.
 void writePng(const Image& image, const std::filesystem::path& file);
 
+/// Pixels of the largest picture that is drawn, 8192 × 8192: 200 MB, which a PNG file of 200 kB may
+/// ask for.
+inline constexpr std::size_t usualMostPixels = std::size_t{8192} * 8192;
+
 /// Reads a PNG file of any kind as 8-bit RGB; transparency is blended onto white. Throws Error,
-/// naming the file, if it cannot be read, is no PNG, is cut off or damaged, or is larger than an
-/// Image can be.
-Image readPng(const std::filesystem::path& file);
+/// naming the file, if it is no regular file, cannot be read, is no PNG, is cut off or damaged, is
+/// larger than an Image can be, or has more than `mostPixels`: its first bytes tell.
+Image readPng(const std::filesystem::path& file, std::size_t mostPixels = usualMostPixels);
 
 }  // namespace bumper

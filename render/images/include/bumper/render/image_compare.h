@@ -34,7 +34,7 @@ struct ImageComparison {
   Image difference;             ///< differing pixels red on a pale grey of the first picture
 };
 
-/// Throws Error if the sizes differ or an option lies outside its range.
+/// Throws Error if the sizes differ, there are no pixels or an option lies outside its range.
 ImageComparison compareImages(const Image& first, const Image& second,
                               const ImageCompareOptions& options = {});
 

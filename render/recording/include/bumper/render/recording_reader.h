@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bumper/render/recording.h"
+#include "bumper/render/recording_limits.h"
 #include "bumper/render/run_description.h"
 
 namespace bumper {
@@ -27,11 +28,11 @@ struct RecordingSpan {
 /// opened.
 ///
 /// Throws Error, naming the file, if it cannot be read, and with the line's number if it is no
-/// recording, of a newer format or damaged. Only lines that are read are checked. One thread at a
-/// time.
+/// recording, of a newer format, damaged or beyond a limit. Only lines that are read are checked.
+/// One thread at a time.
 class RecordingReader {
  public:
-  explicit RecordingReader(const std::filesystem::path& file);
+  explicit RecordingReader(const std::filesystem::path& file, const RecordingLimits& limits = {});
   RecordingReader(const RecordingReader&) = delete;
   RecordingReader& operator=(const RecordingReader&) = delete;
   RecordingReader(RecordingReader&& other) noexcept;
@@ -68,6 +69,7 @@ class RecordingReader {
 
 /// The whole of a file; `run`, if given, receives its description. Throws Error as RecordingReader
 /// does.
-Recording readRecording(const std::filesystem::path& file, RunDescription* run = nullptr);
+Recording readRecording(const std::filesystem::path& file, RunDescription* run = nullptr,
+                        const RecordingLimits& limits = {});
 
 }  // namespace bumper

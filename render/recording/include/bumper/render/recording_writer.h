@@ -55,8 +55,8 @@ class RecordingWriter {
   /// Passes all that was added to the operating system.
   void flush();
 
-  /// Completes the file: index and last line. Nothing can be added any more. Does nothing if the
-  /// file is closed already.
+  /// Completes the file: index and last line, and waits until it has reached the disk. Nothing can
+  /// be added any more. Does nothing if the file is closed already.
   void close();
 
  private:
@@ -65,6 +65,12 @@ class RecordingWriter {
     std::optional<double> pose;
     std::optional<double> impact;
   };
+
+  /// Writes a file under another path than the one that messages name.
+  RecordingWriter(std::filesystem::path file, const std::filesystem::path& path,
+                  RunDescription run);
+  friend void writeRecording(const Recording& recording, const std::filesystem::path& file,
+                             const RunDescription& run);
 
   void requireOpen() const;
   void requireWritten();

@@ -21,6 +21,9 @@ struct ReplayTiming {
   double slowReach = 0.25;        ///< s of the run before and after an impact, 0 to 100
   std::optional<double> from{};   ///< s; nothing: the first pose of all
   std::optional<double> to{};     ///< s; nothing: the last pose of all
+  /// More are an Error: a few poses far apart in time would make a film without end. Two hours at
+  /// 30 a second.
+  std::size_t mostFrames = 216000;
 };
 
 /// How a replay looks and what it costs.
@@ -39,6 +42,7 @@ struct ReplayOptions {
   /// Frames that are drawn in parallel, 1 to 64, each by a renderer of its own. More than there are
   /// processors is no gain.
   std::size_t renderers = 2;
+  double patience = 120.0;  ///< s: that of VideoWriter
 };
 
 /// Called after each frame, on the thread that called: frames done, frames in all.
@@ -46,8 +50,9 @@ using ReplayProgress = std::function<void(std::size_t, std::size_t)>;
 
 /// The instants that the frames show, s, in ascending order, from the first to about the last;
 /// never empty. Slow motion begins and ends gradually, over slowReach. Impacts below a tenth of the
-/// hardest impact's Δv do not slow it. Throws Error if a value lies outside its range, or there is
-/// no pose between `from` and `to`.
+/// hardest impact's Δv do not slow it. Throws Error if a value lies outside its range, there is no
+/// pose between `from` and `to`, there would be more than `mostFrames`, or the times are so large
+/// that a frame's step is lost in their rounding.
 std::vector<double> replayTimes(const Recording& recording, const ReplayTiming& timing = {});
 
 /// Draws the frames in several threads and hands them over in order, on the thread that called.

@@ -2,7 +2,9 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,8 +33,15 @@ class ChildProcess {
   /// Kills it if it still runs.
   ~ChildProcess();
 
-  /// Blocks while it is busy. False if it reads no more.
-  bool write(std::span<const std::byte> bytes);
+  /// How long it may take for each step; nothing: for ever. Not more than a week.
+  using Patience = std::optional<std::chrono::milliseconds>;
+
+  /// Blocks while it is busy. False if it reads no more, or nothing for so long.
+  bool write(std::span<const std::byte> bytes, Patience patience = {});
+
+  /// Puts the next of its output in place of the text. False, and the text is empty, at the
+  /// output's end, or if nothing comes for so long.
+  bool read(std::string& text, Patience patience = {});
 
   /// Descriptor of a pipe's end, which the object closes. −1 if the output is not connected.
   [[nodiscard]] int output() const { return output_; }
@@ -40,10 +49,13 @@ class ChildProcess {
   // How it ended, as waitpid() gives it; 0 if the application ignores SIGCHLD, so that it is
   // unknown.
 
-  /// Closes its input and waits until it has ended.
-  int wait();
+  /// Closes its input and waits until it has ended; one that takes longer is killed.
+  int wait(Patience patience = {});
   /// Kills it unless it has ended already.
   int kill();
+
+  /// Whether it has tried someone's patience.
+  [[nodiscard]] bool hasStalled() const { return hasStalled_; }
 
   /// The last line that it wrote to standard error; empty if these are not kept.
   [[nodiscard]] std::string lastErrorLine() const;
@@ -54,6 +66,7 @@ class ChildProcess {
   int input_ = -1;
   int output_ = -1;
   int errors_ = -1;
+  bool hasStalled_ = false;
 };
 
 /// Whether a status of waitpid() is that of a program that ended by itself, with exit code 0.
