@@ -92,7 +92,7 @@ void Responder::Implementation::reportLoads(Vehicle& vehicle) {
     const Eigen::Vector3d impulse = lastStep * load.force;
     const double normalImpulse = impulse.dot(load.normal);
     if (load.barrier == BarrierId{} || normalImpulse <= 0.0) continue;
-    const Barrier& barrier = *barriers[static_cast<std::size_t>(load.barrier.value)];
+    const Barrier& barrier = *find(barriers, load.barrier.value);
     const ResponseSettings& settings = barrier.settings(barrier.settingsNumberOf(load.wall));
     const Eigen::Vector3d along = state.up().cross(load.normal);
     const Eigen::Vector3d velocity = 0.5 * (load.velocity + state.velocityAt(load.arm));
@@ -149,7 +149,7 @@ void Responder::Implementation::reportEndedContacts(Vehicle& vehicle) {
              findTouch(around, {}, wall).has_value();
     });
     if (near) return false;
-    const Barrier& barrier = *barriers[static_cast<std::size_t>(contact.barrier.value)];
+    const Barrier& barrier = *find(barriers, contact.barrier.value);
     ImpactEvent event = eventAt(vehicle, barrier, contact.wall, contact.contact, contact.normal);
     event.time = contact.last;
     event.phase = EventPhase::contact_end;

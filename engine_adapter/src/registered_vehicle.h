@@ -13,6 +13,12 @@
 
 namespace bumper {
 
+/// So that a step need not allocate.
+inline void keepRoom(VehicleMemory& memory) {
+  memory.passable.reserve(4);
+  memory.contacts.reserve(4);
+}
+
 /// A registered vehicle: its data, its surroundings, and its state kept from step to step.
 struct Vehicle {
   Vehicle(VehicleId id, const VehicleParameters& itsParameters, const Band& band, double tiltLimit,
@@ -25,8 +31,7 @@ struct Vehicle {
         freeSpace(bodies, envelope, minUprightness) {
     for (VehicleMemory* each : {&memory, &memoryBefore}) {
       each->vehicle = id;
-      each->passable.reserve(4);
-      each->contacts.reserve(4);
+      keepRoom(*each);
     }
   }
 

@@ -2,6 +2,7 @@
 
 #include <ode/ode.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,23 +12,34 @@
 #include "barrier.h"
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/response/collision_step.h"
+#include "ode_handles.h"
 #include "registered_vehicle.h"
 #include "warnings.h"
 #include "world_clock.h"
 
 namespace bumper {
 
-struct JointGroupDeleter {
-  void operator()(dJointGroupID group) const { dJointGroupDestroy(group); }
-};
+inline int idOf(const Barrier& barrier) { return barrier.id().value; }
+inline int idOf(const Vehicle& vehicle) { return vehicle.memory.vehicle.value; }
+
+/// The one with that id among things in the order of their ids; null if there is none.
+template <typename Thing>
+Thing* find(const std::vector<std::unique_ptr<Thing>>& things, int id) {
+  const auto found =
+      std::lower_bound(things.begin(), things.end(), id,
+                       [](const auto& each, int wanted) { return idOf(*each) < wanted; });
+  return found != things.end() && idOf(**found) == id ? found->get() : nullptr;
+}
 
 struct Responder::Implementation {
   dWorldID world = nullptr;
   ResponderOptions options;
 
-  // Removed ones leave an empty place, so that an id never means another thing later.
+  // In the order of their ids. These are given once, so that none ever means another thing.
   std::vector<std::unique_ptr<Barrier>> barriers;
   std::vector<std::unique_ptr<Vehicle>> vehicles;
+  int nextBarrier = 0;
+  int nextVehicle = 0;
   std::unordered_map<dGeomID, const Barrier*> barrierOfGeom;
   std::unordered_map<dBodyID, const Vehicle*> vehicleOfBody;
   Warnings warnings;
@@ -37,10 +49,10 @@ struct Responder::Implementation {
   unsigned issues = step_issue::none;
   std::vector<ImpactEvent> events;
 
-  double longestPenetrationTime = 0.0;  // of all barriers there ever were, s
+  double longestPenetrationTime = 0.0;  // of all barriers, s
 
-  std::optional<WorldClock> clock;  // from the first vehicle on
-  std::unique_ptr<dxJointGroup, JointGroupDeleter> guardJoints{dJointGroupCreate(0)};
+  std::optional<WorldClock> clock;  // as long as there are vehicles
+  OwnJointGroup guardJoints{dJointGroupCreate(0)};
   bool hasGuards = false;  // the group has joints
 
   // Scratch memory, kept from step to step.

@@ -53,7 +53,7 @@ std::span<const ImpactEvent> Responder::step(double h) {
   // before.
   Vehicle** last = self.active.data();
   for (const std::unique_ptr<Vehicle>& vehicle : self.vehicles) {
-    if (vehicle != nullptr && !vehicle->freeSpace.holds(h)) *last++ = vehicle.get();
+    if (!vehicle->freeSpace.holds(h)) *last++ = vehicle.get();
   }
   const std::span<Vehicle*> active(self.active.data(), last);
   for (Vehicle* vehicle : active) vehicle->issues = step_issue::none;
@@ -237,7 +237,6 @@ void Responder::Implementation::deliver(Vehicle& vehicle, double h) {
 
 void Responder::Implementation::forgetSurroundings() {
   for (const std::unique_ptr<Vehicle>& vehicle : vehicles) {
-    if (vehicle == nullptr) continue;
     vehicle->freeSpace.forget();
     vehicle->nearby.forget();
   }
