@@ -101,7 +101,6 @@ class Converter {
     if (mesh.mNumVertices >= std::numeric_limits<std::uint32_t>::max() - vertices.size()) {
       fail(name, "brings the file above 4,294,967,294 vertices");
     }
-    vertices.reserve(vertices.size() + mesh.mNumVertices);
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
       const aiVector3D& v = mesh.mVertices[i];
       const Eigen::Vector3d place = Eigen::Vector3f(v.x, v.y, v.z).cast<double>();
