@@ -176,6 +176,32 @@ TEST_F(BrokenFiles, ThatCrashTheReader) {
               "cannot be read");
 }
 
+// Also of the formats that are read in this process.
+TEST_F(BrokenFiles, ThatAreNestedDeep) {
+  std::string text = "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n}\n";
+  for (int i = 0; i < 50'000; ++i) text += "A:  {\n";
+  expectError(write("deep.fbx", text), {}, "cannot be read");
+}
+
+// A triangle with a picture in the file, of a type that is none; it is not needed.
+TEST_F(BrokenFiles, WithAPictureOfNoType) {
+  const std::string json =
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
+"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],
+"textures":[{"source":0}],"images":[{"mimeType":"x","bufferView":0}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":
+"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+  const std::filesystem::path file = write("picture.gltf", json);
+  const NothingLeftBehind check;
+  try {
+    EXPECT_EQ(loadScene(file).triangles.size(), 1U);
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr(file.string()));
+  }
+}
+
 TEST_F(BrokenFiles, ThatNeedTooMuchMemory) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the memory limit is off with the address sanitizer, which maps terabytes";

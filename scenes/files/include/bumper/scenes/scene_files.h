@@ -93,11 +93,10 @@ Scene loadScene(const std::filesystem::path& file, const LoadOptions& options = 
 /// one ships oneself, where no child process can be started. Throws Error as loadScene() does where
 /// assimp notices that something is wrong. Where it does not, the process ends, hangs, or runs out
 /// of memory or stack. No format is safe; with assimp 5.2 are known
-///   - glTF, GLB: an image of a bufferView whose mimeType is no "image/…" (reads out of bounds),
-///     an index or a reference of another type than its schema says;
+///   - GLB: an image in a bufferView whose mimeType has no "/" (reads out of bounds);
 ///   - FBX: elements nested some ten thousand deep (stack);
-///   - AC3D: fewer objects than "kids" says, and most other broken files.
-/// In 6,600 broken files of all these formats 25 ended the process, and 2 hung it.
+///   - AC3D: some broken files.
+/// Of 6,600 files broken at random 25 ended the process, and 2 hung it.
 Scene loadTrustedScene(const std::filesystem::path& file, const LoadOptions& options = {},
                        LoadReport* report = nullptr);
 
