@@ -4,10 +4,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "bumper/engine_adapter/responder.h"
 #include "ode_vectors.h"
+#include "pair_plane.h"
 #include "responder_implementation.h"
 
 namespace bumper {
@@ -34,6 +36,53 @@ OwnedPair ordered(const Responder::Implementation& responder, dGeomID vehicleGeo
   if (vehicle == responder.vehicleOfBody.end() || !vehicle->second->isUpright()) return {};
   return {.vehicle = vehicle->second, .body = body, .barrier = barrier->second};
 }
+
+const Vehicle* vehicleOf(const Responder::Implementation& responder, dGeomID geom) {
+  if (geom == nullptr || dGeomIsSpace(geom) != 0) return nullptr;
+  const dBodyID body = dGeomGetBody(geom);
+  if (body == nullptr) return nullptr;
+  const auto vehicle = responder.vehicleOfBody.find(body);
+  return vehicle != responder.vehicleOfBody.end() ? vehicle->second : nullptr;
+}
+
+/// Two vehicles that meet at the heights of their bands: their contacts are Bumper's, but for those
+/// of one that lies on the other.
+struct OwnedVehicles {
+  explicit OwnedVehicles(const Responder::Implementation& responder, dGeomID a, dGeomID b) {
+    if (!responder.hasPairs()) return;
+    const Vehicle* const one = vehicleOf(responder, a);
+    const Vehicle* const other = vehicleOf(responder, b);
+    if (one == nullptr || other == nullptr || one == other || !one->isUpright() ||
+        !other->isUpright()) {
+      return;
+    }
+    const VehiclePose pose = one->bodies.readPose();
+    const VehiclePose others = other->bodies.readPose();
+    const PairPlane plane(pose, others);
+    if (!bandsOverlap(plane, pose, one->envelope, others, other->envelope) ||
+        !responder.mayMeet(*one, *other)) {
+      return;
+    }
+    meet = true;
+    normal = plane.normal();
+    const double higher = std::abs(normal.dot(others.massCentre - pose.massCentre));
+    areLevel =
+        higher < levelShare * std::min(one->envelope.bandHeight(), other->envelope.bandHeight());
+  }
+
+  [[nodiscard]] bool own(const Eigen::Vector3d& contactNormal) const {
+    return meet && std::abs(normal.dot(contactNormal)) < steepest;
+  }
+
+  /// A contact nearer the vertical, as a cosine, is one of a vehicle that lies on another.
+  static constexpr double steepest = 0.7071;
+  /// By so much of a band's height one may stand higher than the other and cannot lie on it.
+  static constexpr double levelShare = 0.5;
+
+  bool meet = false;
+  bool areLevel = false;
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+};
 
 /// The pair, if Bumper may own contacts of it.
 OwnedPair pairOf(const Responder::Implementation& responder, dGeomID a, dGeomID b) {
@@ -86,11 +135,15 @@ class ContactPairs {
     second_ = contact.g2;
     isKnown_ = true;
     const bool swapped = first_ == b_ || second_ == a_;
-    pair_ = bumper::pairOf(responder_, carrierOf(first_, swapped ? b_ : a_),
-                           carrierOf(second_, swapped ? a_ : b_));
+    dGeomID const first = carrierOf(first_, swapped ? b_ : a_);
+    dGeomID const second = carrierOf(second_, swapped ? a_ : b_);
+    pair_ = bumper::pairOf(responder_, first, second);
+    vehicles_ = OwnedVehicles(responder_, first, second);
     if (pair_) pose_ = pair_.vehicle->bodies.readPose();
     return pair_;
   }
+  /// Of the last contact.
+  [[nodiscard]] const OwnedVehicles& vehicles() const { return vehicles_; }
   /// Of the last pair's vehicle.
   [[nodiscard]] const VehiclePose& pose() const { return pose_; }
 
@@ -113,6 +166,7 @@ class ContactPairs {
   dGeomID first_ = nullptr;
   dGeomID second_ = nullptr;
   OwnedPair pair_;
+  OwnedVehicles vehicles_{responder_, nullptr, nullptr};
   VehiclePose pose_;
 };
 
@@ -157,6 +211,8 @@ bool isOurs(const OwnedPair& pair, const VehiclePose& pose, const dContactGeom& 
 }  // namespace
 
 bool Responder::claims(dGeomID a, dGeomID b) const {
+  const OwnedVehicles vehicles(*implementation_, a, b);
+  if (vehicles.meet) return vehicles.areLevel;
   const OwnedPair pair = pairOf(*implementation_, a, b);
   // A mesh that holds ground too is decided contact by contact.
   if (!pair || !pair.barrier->hasWallsOnly()) return false;
@@ -168,6 +224,7 @@ int Responder::keepUnclaimed(dGeomID a, dGeomID b, dContact* contacts, int count
   ContactPairs pairs(*implementation_, a, b);
   const auto isBumpers = [&](const dContact& contact) {
     const OwnedPair& pair = pairs.pairOf(contact.geom);
+    if (pairs.vehicles().meet) return pairs.vehicles().own(toVector(contact.geom.normal));
     return pair && isOurs(pair, pairs.pose(), contact.geom);
   };
   return static_cast<int>(std::remove_if(contacts, contacts + count, isBumpers) - contacts);

@@ -59,7 +59,7 @@ void GuardContacts::add(const Guard& guard, dJointGroupID group, dBodyID chassis
                         const VehicleState& state, const Step& step) {
   if (count_ == loads_.size()) return;
   GuardLoad& load = loads_[count_];
-  load.barrier = guard.barrier;
+  load.with = {.barrier = guard.barrier};
   load.wall = guard.wall;
   load.arm = state.toWorld(guard.contact.arm);
   load.contact = state.massCentre + load.arm;
@@ -71,20 +71,42 @@ void GuardContacts::add(const Guard& guard, dJointGroupID group, dBodyID chassis
       state.toWorld(guard.contact.velocity) + state.up().dot(state.velocity) * state.up();
   const double room = guard.contact.room / load.normal.dot(inYawPlane);
   const double leastSpeed = load.normal.dot(unpushed) - room / step.size;
-  load.force.setZero();
+  attach({.leastSpeed = leastSpeed, .friction = guard.friction}, group, chassis, step);
+}
 
+void GuardContacts::add(const PairGuard& guard, dJointGroupID group, dBodyID chassis,
+                        const Step& step) {
+  if (count_ == loads_.size()) return;
+  GuardLoad& load = loads_[count_];
+  load.with = {.vehicle = guard.other};
+  load.wall = 0;
+  load.arm = guard.arm;
+  load.contact = guard.place;
+  load.normal = guard.normal;
+  load.velocity = guard.velocity;
+  attach({.other = guard.chassis,
+          .leastSpeed = guard.normal.dot(guard.velocity) - guard.room / step.size,
+          .friction = guard.friction},
+         group, chassis, step);
+}
+
+// Makes the joint of the next load.
+void GuardContacts::attach(const Constraint& constraint, dJointGroupID group, dBodyID chassis,
+                           const Step& step) {
+  GuardLoad& load = loads_[count_];
+  load.force.setZero();
   dContact contact{};
   contact.surface.mode = dContactMotionN | dContactSoftERP | dContactSoftCFM | dContactApprox1;
   contact.surface.soft_erp = 0.0;
   contact.surface.soft_cfm = constraintForceMixing;
-  contact.surface.mu = guard.friction >= leastFriction ? guard.friction : 0.0;
-  contact.surface.motionN = leastSpeed - mostDither * dither(step.time, count_);
+  contact.surface.mu = constraint.friction >= leastFriction ? constraint.friction : 0.0;
+  contact.surface.motionN = constraint.leastSpeed - mostDither * dither(step.time, count_);
   for (int k = 0; k < 3; ++k) {
     contact.geom.pos[k] = load.contact[k];
     contact.geom.normal[k] = load.normal[k];
   }
   const dJointID joint = dJointCreateContact(dBodyGetWorld(chassis), group, &contact);
-  dJointAttach(joint, chassis, nullptr);
+  dJointAttach(joint, chassis, constraint.other);
   feedback_[count_] = {};
   dJointSetFeedback(joint, &feedback_[count_]);
   joints_[count_++] = joint;

@@ -28,6 +28,9 @@ inline double guardDistance(double speed, double h) {
   return h * std::max(2.0 * speed, afterBlow);
 }
 
+/// A point that is no further from what it may meet than this, m, slides along it in the step.
+inline constexpr double slidingGap = 1e-3;
+
 /// One vehicle's guard contacts. A force pulse is computed for a vehicle without other contacts.
 /// Where joints act on it too, its guard contacts make the walls a part of the world's own solve:
 /// contact joints for one step, with the wall's own normal, that only keep a point of the outline
@@ -41,6 +44,18 @@ class GuardContacts {
     double friction = 0.0;  ///< Coulomb's coefficient
   };
 
+  /// A guard contact with another vehicle, in the world.
+  struct PairGuard {
+    VehicleId other;
+    dBodyID chassis = nullptr;                           ///< the other one's
+    Eigen::Vector3d place = Eigen::Vector3d::Zero();     ///< m
+    Eigen::Vector3d arm = Eigen::Vector3d::Zero();       ///< from the own mass centre, m
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, into the own vehicle
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< relative, without other loads, m/s
+    double room = 0.0;                                   ///< m
+    double friction = 0.0;
+  };
+
   struct Step {
     double time = 0.0;  ///< when it begins, s
     double size = 0.0;  ///< s
@@ -50,6 +65,7 @@ class GuardContacts {
   /// SpeculativeContacts::most. Its normal is level, whatever the vehicle's lean.
   void add(const Guard& guard, dJointGroupID group, dBodyID chassis, const VehicleState& state,
            const Step& step);
+  void add(const PairGuard& guard, dJointGroupID group, dBodyID chassis, const Step& step);
   [[nodiscard]] bool isEmpty() const { return count_ == 0; }
 
   /// Their loads in the world's last step.
@@ -62,6 +78,13 @@ class GuardContacts {
   void release();
 
  private:
+  struct Constraint {
+    dBodyID other = nullptr;  // null: the world
+    double leastSpeed = 0.0;  // along the load's normal, m/s
+    double friction = 0.0;
+  };
+  void attach(const Constraint& constraint, dJointGroupID group, dBodyID chassis, const Step& step);
+
   std::array<GuardLoad, SpeculativeContacts::most> loads_{};
   std::array<dJointFeedback, SpeculativeContacts::most> feedback_{};
   std::array<dJointID, SpeculativeContacts::most> joints_{};

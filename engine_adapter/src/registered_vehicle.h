@@ -9,6 +9,7 @@
 #include "free_space.h"
 #include "guard_contacts.h"
 #include "nearby_walls.h"
+#include "traffic.h"
 #include "vehicle_bodies.h"
 
 namespace bumper {
@@ -17,6 +18,7 @@ namespace bumper {
 inline void keepRoom(VehicleMemory& memory) {
   memory.passable.reserve(4);
   memory.contacts.reserve(4);
+  memory.hits.reserve(8);
 }
 
 /// A registered vehicle: its data, its surroundings, and its state kept from step to step.
@@ -29,11 +31,28 @@ struct Vehicle {
         minUprightness(std::cos(tiltLimit)),
         envelope(itsParameters, band),
         freeSpace(bodies, envelope, minUprightness) {
+    traveller.vehicle = this;
+    const dBodyID chassis = bodies.chassis();
+    traveller.position = dBodyGetPosition(chassis);
+    traveller.rotation = dBodyGetRotation(chassis);
+    traveller.velocity = dBodyGetLinearVel(chassis);
+    traveller.turning = dBodyGetAngularVel(chassis);
+    const VehiclePose pose = bodies.readPose();
+    const dReal* at = traveller.position;
+    const Eigen::Vector3d away = pose.massCentre - Eigen::Vector3d(at[0], at[1], at[2]);
+    traveller.massCentre = (pose.axes.transpose() * away).head<2>();
+    traveller.outline = envelope.outline();
+    traveller.radius = envelope.outline().radius() + away.norm();
     for (VehicleMemory* each : {&memory, &memoryBefore}) {
       each->vehicle = id;
       keepRoom(*each);
     }
   }
+  ~Vehicle() = default;
+  Vehicle(const Vehicle&) = delete;
+  Vehicle& operator=(const Vehicle&) = delete;
+  Vehicle(Vehicle&&) = delete;
+  Vehicle& operator=(Vehicle&&) = delete;
 
   /// Its state as read before anything is solved in a step.
   struct Reading {
@@ -44,6 +63,8 @@ struct Vehicle {
     PlanarMotion motion;
     /// Joints act on it too, and it may get guard contacts.
     bool isHeld = false;
+    /// ODE has put it to sleep; it takes part because another vehicle may wake it.
+    bool isAsleep = false;
   };
 
   VehicleParameters parameters;
@@ -58,6 +79,17 @@ struct Vehicle {
   VehicleMemory memory;
   VehicleMemory memoryBefore;  // as it was before the last step()
   unsigned issues = step_issue::none;
+
+  // Of this step.
+  Traveller traveller;
+  bool isFar = false;       ///< certainly away from all walls
+  bool isAlone = true;      ///< certainly away from all other vehicles
+  bool isActive = false;    ///< … not both
+  bool hasCompany = false;  ///< another vehicle may meet it
+  bool isInIsland = false;
+  bool isHit = false;    ///< by another vehicle
+  int island = -1;       ///< its number; −1: none
+  int islandPlace = -1;  ///< its place among the island's members
 
   /// False also where the rotation is not finite.
   [[nodiscard]] bool isUpright() const { return uprightness(bodies.chassis()) >= minUprightness; }

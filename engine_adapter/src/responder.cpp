@@ -50,6 +50,15 @@ void validateSettings(const ResponseSettings& settings, const ResponderOptions& 
   }
 }
 
+void validateOfPair(const ResponseSettings& settings, const char* what) {
+  validate(settings);
+  if (settings.method == Method::paper) {
+    throw Error(std::string(what) + ": the paper's method has no law for two vehicles");
+  }
+  if (breaks(settings))
+    throw Error(std::string(what) + ": vehicles do not break through each other");
+}
+
 // Of a barrier where more than this part of what may be a wall was dropped on a guess.
 constexpr double muchOnGuess = 0.1;
 
@@ -126,12 +135,12 @@ void update(Responder::Implementation& responder, const Barrier& old, const Barr
   for (const std::unique_ptr<Vehicle>& vehicle : responder.vehicles) {
     for (VehicleMemory* memory : {&vehicle->memory, &vehicle->memoryBefore}) {
       for (SustainedContact& contact : memory->contacts) {
-        if (contact.barrier == old.id())
+        if (contact.with.barrier == old.id())
           contact.wall = std::min(contact.wall, fresh->wallCount() - 1);
       }
     }
     for (GuardLoad& load : vehicle->guards.loads()) {
-      if (load.barrier == old.id()) load.wall = std::min(load.wall, fresh->wallCount() - 1);
+      if (load.with.barrier == old.id()) load.wall = std::min(load.wall, fresh->wallCount() - 1);
     }
   }
   forgetGeom(responder, old);
@@ -168,6 +177,7 @@ Responder::Responder(dWorldID world, const ResponderOptions& options) {
     throw Error("Responder: this ODE is not built in double precision");
   }
   validate(options.response);
+  validateOfPair(options.vehicleResponse, "ResponderOptions::vehicleResponse");
   implementation_ = std::make_unique<Implementation>();
   implementation_->world = world;
   implementation_->options = options;
@@ -289,8 +299,10 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
   const std::size_t count = self.vehicles.size() + 1;
   self.events.reserve(CollisionStep::maxImpacts + 16 * count);
   self.active.resize(std::max(self.active.size(), count));
+  self.travellers.reserve(count);
   try {
     for (dBodyID body : bodies) self.vehicleOfBody.emplace(body, vehicle.get());
+    self.traffic.add(vehicle->traveller);
   } catch (...) {
     for (dBodyID body : bodies) self.vehicleOfBody.erase(body);
     throw;
@@ -308,16 +320,26 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
   return {id};
 }
 
+void Responder::setPair(VehicleId a, VehicleId b, const PairOptions& options) {
+  Implementation& self = *implementation_;
+  registered(self.vehicles, a.value, "vehicle");
+  registered(self.vehicles, b.value, "vehicle");
+  if (a == b) throw Error("setPair: both vehicles are the same");
+  if (options.response) validateOfPair(*options.response, "setPair");
+  self.pairOptions.insert_or_assign(std::minmax(a.value, b.value), options);
+}
+
 void Responder::removeBarrier(BarrierId barrier) {
   const Barrier& removed = registered(implementation_->barriers, barrier.value, "barrier");
   for (const std::unique_ptr<Vehicle>& vehicle : implementation_->vehicles) {
     for (VehicleMemory* memory : {&vehicle->memory, &vehicle->memoryBefore}) {
-      const auto isOfIt = [&](const auto& each) { return each.barrier == barrier; };
-      std::erase_if(memory->passable, isOfIt);
-      std::erase_if(memory->contacts, isOfIt);
+      std::erase_if(memory->passable,
+                    [&](const PassableWall& each) { return each.barrier == barrier; });
+      std::erase_if(memory->contacts,
+                    [&](const SustainedContact& each) { return each.with.barrier == barrier; });
     }
     for (GuardLoad& load : vehicle->guards.loads()) {
-      if (load.barrier == barrier) load.barrier = {};
+      if (load.with.barrier == barrier) load.with = {};
     }
   }
   forgetGeom(*implementation_, removed);
@@ -331,7 +353,21 @@ void Responder::removeVehicle(VehicleId vehicle) {
   Vehicle& removed = registered(self.vehicles, vehicle.value, "vehicle");
   for (dBodyID body : removed.bodies.all()) self.vehicleOfBody.erase(body);
   self.warnings.drop(&removed);
+  std::erase_if(self.pairOptions, [&](const auto& rule) {
+    return rule.first.first == vehicle.value || rule.first.second == vehicle.value;
+  });
+  for (const std::unique_ptr<Vehicle>& other : self.vehicles) {
+    for (VehicleMemory* memory : {&other->memory, &other->memoryBefore}) {
+      std::erase_if(memory->hits, [&](const VehicleHit& each) { return each.vehicle == vehicle; });
+      std::erase_if(memory->contacts,
+                    [&](const SustainedContact& each) { return each.with.vehicle == vehicle; });
+    }
+    for (GuardLoad& load : other->guards.loads()) {
+      if (load.with.vehicle == vehicle) load.with = {};
+    }
+  }
   removed.guards.release();
+  self.traffic.remove(removed.traveller);
   erase(self.vehicles, removed);
   if (self.vehicles.empty()) {
     self.warnings.drop(nullptr);
@@ -401,11 +437,22 @@ void Responder::restore(const SavedState& state) {
                     std::to_string(wall.settings));
       }
     }
+    for (const VehicleHit& other : memory.hits) {
+      registered(self.vehicles, other.vehicle.value, "vehicle");
+    }
     for (const SustainedContact& contact : memory.contacts) {
-      requireWall(contact.barrier, contact.wall);
+      if (contact.with.vehicle != VehicleId{}) {
+        registered(self.vehicles, contact.with.vehicle.value, "vehicle");
+      } else {
+        requireWall(contact.with.barrier, contact.wall);
+      }
     }
     for (const GuardLoad& load : memory.guards) {
-      if (load.barrier != BarrierId{}) requireWall(load.barrier, load.wall);
+      if (load.with.vehicle != VehicleId{}) {
+        registered(self.vehicles, load.with.vehicle.value, "vehicle");
+      } else if (load.with.barrier != BarrierId{}) {
+        requireWall(load.with.barrier, load.wall);
+      }
     }
   }
   // Copies first, which may fail; a step takes them as it takes those of a new vehicle.

@@ -1,6 +1,6 @@
 // One step, in three passes over the vehicles that may touch something: all are read, islands are
 // solved, and the impulses are delivered. No force is added before all vehicles have been read.
-// Vehicles do not collide with each other here, so an island is one vehicle among fixed walls.
+// An island is one vehicle among fixed walls, or several that may hit each other.
 
 #include <algorithm>
 #include <cmath>
@@ -29,9 +29,6 @@ PlanarMotion motionOf(const VehicleState& state, const ForcePulse& pulse, Method
   return motion;
 }
 
-// A point that is no further from its wall than this, m, slides along it in the step.
-constexpr double slidingGap = 1e-3;
-
 double gravityOf(dWorldID world) {
   dVector3 gravity;
   dWorldGetGravity(world, gravity);
@@ -49,14 +46,20 @@ std::span<const ImpactEvent> Responder::step(double h) {
   Implementation& self = *implementation_;
   self.events.clear();
   self.issues = step_issue::none;
-  // Those that are not certainly away from all walls. One that is has no event, and had none
-  // before.
-  Vehicle** last = self.active.data();
+  // Those that are not certainly away from all walls and other vehicles. One that is has no event,
+  // and had none before.
+  const bool hasPairs = self.hasPairs();
+  self.activeCount = 0;
   for (const std::unique_ptr<Vehicle>& vehicle : self.vehicles) {
-    if (!vehicle->freeSpace.holds(h)) *last++ = vehicle.get();
+    vehicle->isFar = vehicle->freeSpace.holds(h);
+    vehicle->isAlone = !hasPairs || Traffic::isApart(vehicle->traveller, self.time, h);
+    vehicle->isActive = !vehicle->isFar || !vehicle->isAlone;
+    if (vehicle->isActive) self.active[self.activeCount++] = vehicle.get();
   }
-  const std::span<Vehicle*> active(self.active.data(), last);
-  for (Vehicle* vehicle : active) vehicle->issues = step_issue::none;
+  for (Vehicle* vehicle : self.activeNow()) {
+    vehicle->issues = step_issue::none;
+    vehicle->hasCompany = false;
+  }
   if (!(h > 0.0 && h < std::numeric_limits<double>::infinity())) {
     if (h != 0.0) self.issues = step_issue::invalid_step;
     return {};
@@ -65,7 +68,8 @@ std::span<const ImpactEvent> Responder::step(double h) {
     dJointGroupEmpty(self.guardJoints.get());
     self.hasGuards = false;
   }
-  if (!active.empty()) self.stepAll(active, h);
+  if (hasPairs) self.findCompany(h);
+  if (self.activeCount > 0) self.stepAll(self.activeNow(), h);
   self.time += h;
   self.lastStep = h;
   return self.events;
@@ -74,9 +78,11 @@ std::span<const ImpactEvent> Responder::step(double h) {
 void Responder::Implementation::stepAll(std::span<Vehicle* const> some, double h) {
   checkLastStep(some);
   for (Vehicle* vehicle : some) read(*vehicle, h);
+  findIslands(h);
   for (Vehicle* vehicle : some) {
-    if (vehicle->reading.takesPart) solve(*vehicle, h);
+    if (vehicle->reading.takesPart && vehicle->island < 0) solve(*vehicle, h);
   }
+  solveIslands(h);
   bool anyDelivered = false;
   for (Vehicle* vehicle : some) {
     if (vehicle->reading.takesPart) deliver(*vehicle, h);
@@ -90,9 +96,10 @@ void Responder::Implementation::stepAll(std::span<Vehicle* const> some, double h
 void Responder::Implementation::read(Vehicle& vehicle, double h) {
   VehicleMemory& memory = vehicle.memory;
   vehicle.reading.takesPart = false;
-  vehicle.freeSpace.leave();
+  if (!vehicle.isFar) vehicle.freeSpace.leave();
   const Expectation expected = std::exchange(memory.expectation, {});
-  if (vehicle.bodies.areAsleep() && !hasJointWithBody(vehicle.bodies)) {
+  vehicle.reading.isAsleep = vehicle.bodies.areAsleep() && !hasJointWithBody(vehicle.bodies);
+  if (vehicle.reading.isAsleep && !vehicle.hasCompany) {
     vehicle.guards.forget();
     return;
   }
@@ -115,16 +122,22 @@ void Responder::Implementation::read(Vehicle& vehicle, double h) {
   const bool isUpright = vehicle.isUpright();
   const bool remembersWalls =
       delivering || mayHaveEnded(memory.contacts, time) || !memory.passable.empty();
-  if (isUpright && options.skipping && !remembersWalls &&
-      vehicle.freeSpace.find(barriers, state, gravityOf(world), h,
-                             stepsUntilEnd(memory.contacts, time, h))) {
-    return;
+  if (isUpright && options.skipping && !remembersWalls && !vehicle.isFar) {
+    vehicle.isFar = vehicle.freeSpace.find(barriers, state, gravityOf(world), h,
+                                           stepsUntilEnd(memory.contacts, time, h));
   }
+  if (vehicle.isFar && !vehicle.hasCompany) return;
   vehicle.reading.takesPart = true;
   vehicle.reading.isHeld = isUpright && hasOuterJoint(vehicle.bodies);
   if (isUpright) {
-    vehicle.reading.motion = motionOf(state, memory.pulse, options.response.method, h);
-    collectWalls(vehicle, h);
+    vehicle.reading.motion = vehicle.reading.isAsleep
+                                 ? PlanarMotion{}
+                                 : motionOf(state, memory.pulse, options.response.method, h);
+    if (vehicle.isFar) {
+      vehicle.nearby.clear();
+    } else {
+      collectWalls(vehicle, h);
+    }
   } else {
     vehicle.issues |= step_issue::tilted;
     vehicle.nearby.clear();
@@ -143,7 +156,7 @@ void Responder::Implementation::collectWalls(Vehicle& vehicle, double h) {
       .reach = CollisionStep::reach(vehicle.parametersNow(), motion, longestPenetrationTime, h),
       .evenIfNoneIsThere =
           !options.skipping || mayHaveEnded(memory.contacts, time) || !memory.passable.empty()};
-  if (vehicle.reading.isHeld && options.guardContacts) {
+  if ((vehicle.reading.isHeld || vehicle.hasCompany) && options.guardContacts) {
     const double near = guardDistance(motion.velocity.norm(), h);
     question.around = hull(question.around, vehicle.envelope.outline().enlarged(near));
     question.reach = std::max(question.reach, near);
@@ -155,8 +168,21 @@ void Responder::Implementation::collectWalls(Vehicle& vehicle, double h) {
 void Responder::Implementation::solve(Vehicle& vehicle, double h) {
   const CollisionStep::Walls walls = vehicle.nearby.all();
   if (walls.segments.empty()) return;
+  if (vehicle.reading.isAsleep) return;
   const StepOutcome outcome =
       collision.resolve(vehicle.parametersNow(), vehicle.reading.motion, walls, h);
+  applyOutcome(vehicle, outcome, h);
+  if (vehicle.reading.isHeld && options.guardContacts) {
+    addGuards(vehicle,
+              collision.speculativeContacts(vehicle.reading.motion, outcome.after,
+                                            guardedDistance(vehicle, h), h),
+              h);
+  }
+}
+
+// … and what they did to it in an island.
+void Responder::Implementation::applyOutcome(Vehicle& vehicle, const StepOutcome& outcome,
+                                             double h) {
   if (!outcome.settled) vehicle.issues |= step_issue::unsettled;
   const VehicleState& state = vehicle.reading.state;
   ForcePulse& pulse = vehicle.memory.pulse;
@@ -188,19 +214,21 @@ void Responder::Implementation::solve(Vehicle& vehicle, double h) {
     }
     reportImpact(vehicle, barrier, hit.wall, each);
   }
-  if (vehicle.reading.isHeld && options.guardContacts) addGuards(vehicle, outcome.after, h);
 }
 
-// For the walls that were solved last; `after` is the motion as their impacts leave it.
-void Responder::Implementation::addGuards(Vehicle& vehicle, const PlanarMotion& after, double h) {
+// A wall near at the step's end was near at its start, so that those further away do not matter.
+double Responder::Implementation::guardedDistance(const Vehicle& vehicle, double h) {
   const PlanarMotion& motion = vehicle.reading.motion;
-  // A wall near at the step's end was near at its start, so that those further away do not matter.
   const double speed = motion.velocity.norm();
   const double way = h * (speed + std::abs(motion.yawRate) * vehicle.envelope.outline().radius());
   const double near = guardDistance(speed, h);
-  const double distance = std::max(near - way, 0.5 * near);
-  for (const SpeculativeContact& contact :
-       collision.speculativeContacts(motion, after, distance, h)) {
+  return std::max(near - way, 0.5 * near);
+}
+
+void Responder::Implementation::addGuards(Vehicle& vehicle,
+                                          std::span<const SpeculativeContact> contacts, double h) {
+  const PlanarMotion& motion = vehicle.reading.motion;
+  for (const SpeculativeContact& contact : contacts) {
     const BarrierWall hit = vehicle.nearby.at(contact.wall);
     const ResponseSettings& settings = vehicle.nearby.settingsOf(contact.surface);
     const bool slides =

@@ -9,16 +9,16 @@ namespace bumper {
 namespace {
 
 template <typename Contacts>
-auto contactWith(Contacts& contacts, BarrierId barrier) {
+auto contactWith(Contacts& contacts, const ContactPartner& with) {
   return std::find_if(contacts.begin(), contacts.end(),
-                      [&](const SustainedContact& each) { return each.barrier == barrier; });
+                      [&](const SustainedContact& each) { return each.with == with; });
 }
 
 }  // namespace
 
-double impactSpeed(const std::vector<SustainedContact>& contacts, BarrierId barrier,
+double impactSpeed(const std::vector<SustainedContact>& contacts, const ContactPartner& with,
                    const ResponseSettings& settings) {
-  const bool isInContact = contactWith(contacts, barrier) != contacts.end();
+  const bool isInContact = contactWith(contacts, with) != contacts.end();
   return isInContact ? impactInContact * settings.restSpeed : settings.restSpeed;
 }
 
@@ -39,11 +39,11 @@ int stepsUntilEnd(const std::vector<SustainedContact>& contacts, double time, do
 
 bool addToContact(std::vector<SustainedContact>& contacts, const ContactShare& share, double time,
                   bool mayBegin) {
-  auto contact = contactWith(contacts, share.barrier);
+  auto contact = contactWith(contacts, share.with);
   const bool begins = contact == contacts.end();
   if (begins) {
     if (!mayBegin) return false;
-    contact = contacts.insert(contacts.end(), {.barrier = share.barrier, .begun = time});
+    contact = contacts.insert(contacts.end(), {.with = share.with, .begun = time});
   }
   contact->wall = share.wall;
   contact->last = time;
@@ -59,8 +59,8 @@ void fadeLoads(std::vector<SustainedContact>& contacts, double step) {
   for (SustainedContact& each : contacts) each.load *= std::max(1.0 - step / contactPause, 0.0);
 }
 
-bool raiseLoad(std::vector<SustainedContact>& contacts, BarrierId barrier, double load) {
-  const auto contact = contactWith(contacts, barrier);
+bool raiseLoad(std::vector<SustainedContact>& contacts, const ContactPartner& with, double load) {
+  const auto contact = contactWith(contacts, with);
   if (contact == contacts.end()) return false;
   const bool rises = load >= 2.0 * contact->load;
   contact->load = std::max(contact->load, load);

@@ -30,6 +30,7 @@ ImpactResponse before(const PlanarBody& vehicle, const PlanarBody& other,
                       const ContactVelocity& velocity) {
   ImpactResponse response;
   response.before = vehicle.motion;
+  response.otherBefore = other.motion;
   response.otherAfter = other.motion;
   response.approachSpeed = -velocity.normal;
   return response;
@@ -123,30 +124,54 @@ ImpactResponse respond(const Impact& impact, const PlanarBody& vehicle, const Pl
   } else {
     response.energyAsked = std::numeric_limits<double>::quiet_NaN();
     response.restitution = rebound == Rebound::elastic ? 1.0 : fade * settings.restitution(attack);
-    response.contact = answerByRestitution(
-        mobility, velocity, response.restitution,
-        {.kind = settings.frictionKind, .value = response.friction}, settings.method);
+    const Friction friction{.kind = settings.frictionKind, .value = response.friction};
+    response.contact = settings.restitutionKind == RestitutionKind::kudlich_slibar
+                           ? solveKudlichSlibar(mobility, velocity, response.restitution, friction)
+                           : answerByRestitution(mobility, velocity, response.restitution, friction,
+                                                 settings.method);
   }
   apply(response, impact, vehicle, other,
         onVehicle(response.contact.impulse, impact.normal, impact.arm));
   return response;
 }
 
+ImpactResponse reduced(const ImpactResponse& whole, const Impact& impact, const PlanarBody& vehicle,
+                       const PlanarBody& other, double share) {
+  const ContactBody own = contactBody(vehicle, impact.arm);
+  const ContactBody others = contactBody(other, impact.otherArm);
+  const ContactMobility mobility = contactMobility(own, others, impact.normal);
+  const ContactVelocity before = contactVelocity(own, others, impact.normal);
+  ImpactResponse response = whole;
+  ContactSolution& contact = response.contact;
+  contact.impulse = {.normal = share * whole.contact.impulse.normal,
+                     .tangent = share * whole.contact.impulse.tangent};
+  contact.velocityAfter = afterImpulse(before, mobility, contact.impulse);
+  contact.restitution = -contact.velocityAfter.normal / before.normal;
+  contact.energyChange = energyChange(before, mobility, contact.impulse);
+  response.restitution = contact.restitution;
+  apply(response, impact, vehicle, other, onVehicle(contact.impulse, impact.normal, impact.arm));
+  return response;
+}
+
 ImpactResponse plainResponse(const Impact& impact, const PlanarBody& vehicle,
                              const PlanarImpulse& impulse) {
-  const auto velocityOf = [&](const PlanarMotion& motion) {
-    return contactVelocity(
-        {.arm = impact.arm, .velocity = motion.velocity, .yawRate = motion.yawRate}, impact.normal);
-  };
-  ImpactResponse response = before(vehicle, {}, velocityOf(vehicle.motion));
+  return plainResponse(impact, vehicle, PlanarBody{}, impulse);
+}
+
+ImpactResponse plainResponse(const Impact& impact, const PlanarBody& vehicle,
+                             const PlanarBody& other, const PlanarImpulse& impulse) {
+  const ContactBody own = contactBody(vehicle, impact.arm);
+  const ContactBody others = contactBody(other, impact.otherArm);
+  const ContactVelocity velocity = contactVelocity(own, others, impact.normal);
+  const ContactMobility mobility = contactMobility(own, others, impact.normal);
+  ImpactResponse response = before(vehicle, other, velocity);
   response.energyAsked = std::numeric_limits<double>::quiet_NaN();
   response.contact.impulse = {.normal = impulse.linear.dot(impact.normal),
                               .tangent = impulse.linear.dot(turnedLeft(impact.normal))};
   response.contact.criticalRatio = std::numeric_limits<double>::quiet_NaN();
-  apply(response, impact, vehicle, {}, impulse);
-  response.contact.velocityAfter = velocityOf(response.after);
-  response.contact.energyChange =
-      PlanarBody{vehicle.mass, vehicle.yawInertia, response.after}.energy() - vehicle.energy();
+  apply(response, impact, vehicle, other, impulse);
+  response.contact.velocityAfter = afterImpulse(velocity, mobility, response.contact.impulse);
+  response.contact.energyChange = energyChange(velocity, mobility, response.contact.impulse);
   response.contact.regime = Regime::sticking;
   return response;
 }

@@ -42,6 +42,12 @@ void validate(const ResponseSettings& settings) {
         "ResponseSettings::frictionKind is fraction_of_critical: only the restitution law of "
         "Method::bumper knows it");
   }
+  if (settings.restitutionKind == RestitutionKind::kudlich_slibar &&
+      (settings.law == Law::energy || settings.method == Method::paper)) {
+    throw Error(
+        "ResponseSettings::restitutionKind is kudlich_slibar: only the restitution law of "
+        "Method::bumper knows it");
+  }
   requireCurve(settings.energyRemaining, 1.0, "energyRemaining");
   requireRange(settings.maxRestitution, 0.0, 1.0, "maxRestitution", "");
   requireRange(settings.penetrationTime, 0.0, unbounded, "penetrationTime", " s");

@@ -48,6 +48,20 @@ ContactSolution solveRestitution(const ContactMobility& mobility, const ContactV
   return solution;
 }
 
+ContactSolution solveKudlichSlibar(const ContactMobility& mobility, const ContactVelocity& before,
+                                   double restitution, const Friction& friction) {
+  const ContactSolution compression = solveRestitution(mobility, before, 0.0, friction);
+  if (compression.regime == Regime::separating) return compression;
+  const double times = 1.0 + restitution;
+  ContactSolution solution = describe(mobility, before,
+                                      {.normal = times * compression.impulse.normal,
+                                       .tangent = times * compression.impulse.tangent});
+  solution.impulseRatio = compression.impulseRatio;
+  solution.criticalRatio = compression.criticalRatio;
+  solution.regime = compression.regime;
+  return solution;
+}
+
 ContactSolution solveRestitutionAsPrinted(const ContactMobility& mobility,
                                           const ContactVelocity& before, double restitution,
                                           double friction) {

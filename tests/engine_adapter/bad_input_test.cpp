@@ -154,9 +154,9 @@ TEST(BadInput, SavedStatesThatFitNothing) {
   twice.time = 7.0;
   expectError([&] { responder.restore(twice); }, "'one' more than once");
   SavedState pressed = fine;
-  pressed.vehicles[0].guards.push_back({.barrier = barrier, .wall = 1000});
+  pressed.vehicles[0].guards.push_back({.with = {.barrier = barrier}, .wall = 1000});
   expectError([&] { responder.restore(pressed); }, "no wall number 1000");
-  pressed.vehicles[0].guards[0].barrier.value = 5;
+  pressed.vehicles[0].guards[0].with.barrier.value = 5;
   expectError([&] { responder.restore(pressed); }, "no barrier with id 5");
   EXPECT_EQ(responder.time(), 0.0);
   responder.restore(fine);

@@ -285,7 +285,7 @@ TEST(StepContract, ASavedStateOfOthersIsRefused) {
   saved.vehicles[0].passable.push_back({.barrier = {.value = 7}});
   EXPECT_THROW(run.responder.restore(saved), Error);
   saved = run.responder.save();
-  saved.vehicles[0].contacts.push_back({.barrier = {.value = 0}, .wall = 40});
+  saved.vehicles[0].contacts.push_back({.with = {.barrier = {.value = 0}}, .wall = 40});
   EXPECT_THROW(run.responder.restore(saved), Error);
 }
 

@@ -39,13 +39,23 @@ bool leadsUpFrom(const Manifold& wall, const Overlap& front) {
          highest > inLine * (wall.segment.end - wall.segment.start).norm();
 }
 
+// From the one to the other, of which it has a share; without its speed.
+Approach between(const Approach& one, const Approach& other, double share) {
+  const auto mean = [share](const Vector2& a, const Vector2& b) -> Vector2 {
+    return a + share * (b - a);
+  };
+  return {.contact = {.point = mean(one.contact.point, other.contact.point),
+                      .arm = mean(one.contact.arm, other.contact.arm)},
+          .normal = mean(one.normal, other.normal).normalized()};
+}
+
 }  // namespace
 
 std::optional<Vector2> endAt(const Segment& wall, const Vector2& place) {
-  for (const Vector2& end : {wall.start, wall.end}) {
-    if ((end - place).norm() <= jointWidth) return end;
-  }
-  return std::nullopt;
+  const double toStart = (wall.start - place).norm();
+  const double toEnd = (wall.end - place).norm();
+  if (std::min(toStart, toEnd) > jointWidth) return std::nullopt;
+  return toStart < toEnd ? wall.start : wall.end;
 }
 
 void ContactSet::begin(std::span<const Segment> segments, std::span<const Surface> surfaces) {
@@ -75,7 +85,11 @@ void ContactSet::setOverlap(Manifold& wall, const std::optional<Overlap>& overla
   wall.touched = overlap.has_value();
   wall.hidden = false;
   wall.struck = false;
-  if (overlap) wall.overlap = *overlap;
+  if (overlap) {
+    wall.overlap = *overlap;
+  } else {
+    wall.answered.yielding = 0.0;
+  }
 }
 
 void ContactSet::finish() {
@@ -142,12 +156,18 @@ Approach ContactSet::approach(const ContactPoint& contact, const Vector2& normal
   return {contact, normal, -velocityAt(vehicle_.body.motion, contact.arm).dot(normal)};
 }
 
-Approach ContactSet::touching(const Manifold& wall) const {
+Approach ContactSet::touching(const Manifold& wall, const Answer& answered) const {
   const std::span<const ContactPoint> points = wall.points.all();
-  Approach best = approach(points.front(), wall.overlap.normal);
+  const auto approachAt = [&](const ContactPoint& point) {
+    if (answered.yielding == 0.0) return approach(point, wall.overlap.normal);
+    const Approach at =
+        between({.contact = point, .normal = wall.overlap.normal}, answered.at, answered.yielding);
+    return approach(at.contact, at.normal);
+  };
+  Approach best = approachAt(points.front());
   if (best.speed > restTolerance) return best;
   for (const ContactPoint& other : points.subspan(1)) {
-    const Approach point = approach(other, wall.overlap.normal);
+    const Approach point = approachAt(other);
     if (point.speed > best.speed) best = point;
   }
   return best;
@@ -177,31 +197,32 @@ Answer ContactSet::answerTo(const Manifold& struck, const Approach& first) const
   if (struck.segment.isPost() || (penetration <= 0.0 && !yields)) return alone();
   // Back to where they touched, and on from there for the penetration time.
   double reached = touch.depth - moveTo(touch, place_.position, penetration);
-  if (yields) reached = std::min(reached, yielding.reach);
+  reached -= yielding.share * std::max(reached - yielding.reach, 0.0);
   Placement pose = place_;
   pose.position += touch.depth * touch.normal + yielding.aside;
+  Vector2 onwards = Vector2::Zero();
   if (reached > 0.0) {
-    pose.position += reached / first.speed * velocityAt(vehicle_.body.motion, first.contact.arm);
+    onwards = reached / first.speed * velocityAt(vehicle_.body.motion, first.contact.arm);
   }
+  // An impulse makes it slower, and no less engaged.
+  const Answer& before = struck.answered;
+  if (before.yielding > 0.0) onwards += yielding.share * (before.onwards - onwards);
+  pose.position += onwards;
   const EngagedContact engaged = engagedContact(*this, struck, {outline, pose}, yielding.share);
   if (yields && !engaged.meets) {
-    return {
-        .at = {.contact = first.contact, .normal = first.normal}, .yields = true, .meets = false};
+    return {.at = {.contact = first.contact, .normal = first.normal},
+            .yielding = yielding.share,
+            .onwards = onwards,
+            .meets = false};
   }
   if (!engaged.meets || engaged.share == 0.0) return alone();
   // Walls that go on and turn to the side go over into one wall that ends; at a vertex that is
   // touched none of them is that one.
   const Answer end = alone();
-  const auto between = [&](const Vector2& one, const Vector2& other) -> Vector2 {
-    return one + engaged.share * (other - one);
-  };
-  ContactPoint contact = engaged.contact;
-  if (!touch.byEnd) {
-    contact = {.point = between(end.at.contact.point, contact.point),
-               .arm = between(end.at.contact.arm, contact.arm)};
-  }
-  const Vector2 normal = between(end.at.normal, engaged.normal).normalized();
-  return {.at = approach(contact, normal), .yields = yields};
+  const Approach whole{.contact = engaged.contact, .normal = engaged.normal};
+  Approach at = between(end.at, whole, engaged.share);
+  if (touch.byEnd) at.contact = engaged.contact;
+  return {.at = approach(at.contact, at.normal), .yielding = yielding.share, .onwards = onwards};
 }
 
 }  // namespace bumper

@@ -21,8 +21,10 @@ struct Approach {
 /// What the response to a touched wall acts on.
 struct Answer {
   Approach at{};
-  /// The wall yields: this contact, and not the points of first touch, says whether they approach.
-  bool yields = false;
+  /// By what share of 1 the wall yields: this contact, and not the points of first touch, says
+  /// whether they approach.
+  double yielding = 0.0;
+  Vector2 onwards = Vector2::Zero();  ///< from the touch to where it is engaged, m
   bool meets = true;  ///< it yields, and nothing is in the way: they pass by each other
 };
 
@@ -39,7 +41,7 @@ struct Manifold {
   Answer answered{};
 };
 
-/// The end of a wall that meets a place; none if neither does.
+/// The end of a wall that meets a place, the nearer one if both do; none if neither does.
 std::optional<Vector2> endAt(const Segment& wall, const Vector2& place);
 
 /// The walls near a vehicle, merged, and how its outline touches them where it is now.
@@ -73,8 +75,8 @@ class ContactSet {
 
   [[nodiscard]] Approach approach(const ContactPoint& contact, const Vector2& normal) const;
   /// Of the point of first touch and what else touches: the first if it approaches, else the
-  /// fastest.
-  [[nodiscard]] Approach touching(const Manifold& wall) const;
+  /// fastest. After an answer to a wall that yields each is by that share the answer's contact.
+  [[nodiscard]] Approach touching(const Manifold& wall, const Answer& answered = {}) const;
   /// How long ago the wall was touched at such a speed, s.
   [[nodiscard]] static double sinceTouch(const Manifold& wall, double speed);
   /// The contact at the depth that the outline reaches in the penetration time, if `first`

@@ -25,47 +25,73 @@ constexpr double unseenDepth = 1e-6;
 
 StepOutcome Encounter::resolve(const PlanarBody& body, const Outline& outline,
                                const CollisionStep::Walls& walls, double h) {
-  vehicle_ = {.body = body, .outline = outline};
-  PlanarMotion& motion = vehicle_.body.motion;
+  begin(body, outline, walls, h);
+  settle();
+  while (!isHeld() && h > 0.0) {
+    const double next = nextLook(h);
+    if (!(next < h) && touched_ == nullptr) break;
+    advanceTo(next);
+    settle();
+  }
+  return finish();
+}
+
+void Encounter::begin(const PlanarBody& body, const Outline& outline,
+                      const CollisionStep::Walls& walls, double h, const Vector2& eased) {
+  place(body, outline);
   contacts_.begin(walls.segments, walls.surfaces);
   instant_.begin(h);
-  StepOutcome outcome;
+  step_ = h;
+  shift_ = {};
+  settled_ = Settled::without_impulse;
+  touched_ = nullptr;
 
   contacts_.update(0.0);
-  if (h > 0.0) {
-    contacts_.findWayOut();
-    outcome.shift.velocity = recoveryVelocity(h);
-    if (!outcome.shift.velocity.isZero(0.0)) {
-      motion.position += h * outcome.shift.velocity;
-      contacts_.update(0.0);
-      contacts_.findWayOut();
-    }
-  }
+  if (!(h > 0.0)) return;
+  contacts_.findWayOut();
+  shift_.velocity = recoveryVelocity(eased);
+  if (shift_.velocity.isZero(0.0)) return;
+  vehicle_.body.motion.position += h * shift_.velocity;
+  contacts_.update(0.0);
+  contacts_.findWayOut();
+}
 
-  double time = 0.0;
-  Settled settled = instant_.settle(time);
-  while (settled != Settled::for_now && h > 0.0) {
-    const double look = time + pause(h);
-    const NextTouch next = nextTouch(time, std::min(look, h));
-    if (next.wall == nullptr && look >= h) break;
-    motion = advanced(motion, next.time - time);
-    time = next.time;
-    contacts_.update(time);
-    settled = instant_.settle(time);
-    if (settled == Settled::without_impulse && next.wall != nullptr) {
-      next.wall->ignoredUntil = time + lookAgain * h;
-    }
+void Encounter::settle(Effort effort) {
+  settled_ = instant_.settle(time_, effort);
+  if (settled_ == Settled::without_impulse && touched_ != nullptr) {
+    touched_->ignoredUntil = time_ + lookAgain * step_;
   }
+  touched_ = nullptr;
+}
 
+double Encounter::nextLook(double until) {
+  const double look = std::min(time_ + pause(), until);
+  const NextTouch next = nextTouch(look);
+  touched_ = next.wall;
+  nextTime_ = next.time;
+  return next.time;
+}
+
+void Encounter::advanceTo(double time) {
+  vehicle_.body.motion = advanced(vehicle_.body.motion, time - time_);
+  time_ = time;
+  if (time != nextTime_) touched_ = nullptr;
+  contacts_.update(time);
+}
+
+StepOutcome Encounter::finish() const {
+  StepOutcome outcome;
+  outcome.shift = shift_;
   outcome.impacts = instant_.impacts();
   for (const StepImpact& impact : outcome.impacts) outcome.impulse += impact.response.impulse;
-  outcome.settled = settled != Settled::for_now;
-  if (outcome.settled || !(h > 0.0)) {
-    outcome.after = advanced(motion, h - time);
+  outcome.settled = !isHeld();
+  const PlanarMotion& motion = vehicle_.body.motion;
+  if (outcome.settled || !(step_ > 0.0)) {
+    outcome.after = advanced(motion, step_ - time_);
   } else {
     // Its further motion is unknown: it is held.
     outcome.after = motion;
-    const double share = (h - time) / h;
+    const double share = (step_ - time_) / step_;
     outcome.shift.velocity -= share * motion.velocity;
     outcome.shift.yawRate -= share * motion.yawRate;
   }
@@ -73,14 +99,14 @@ StepOutcome Encounter::resolve(const PlanarBody& body, const Outline& outline,
 }
 
 // Of all walls that the outline penetrates: the velocity of penetration recovery.
-Vector2 Encounter::recoveryVelocity(double h) const {
+Vector2 Encounter::recoveryVelocity(const Vector2& eased) const {
   constexpr double most = CollisionStep::maxRecoverySpeed;
-  Vector2 velocity = Vector2::Zero();
+  Vector2 velocity = eased;
   for (const Manifold& wall : contacts_.all()) {
     if (!wall.touched || wall.hidden || wall.passed) continue;
     const double depth = wall.overlap.depth - allowedDepth;
     if (depth <= 0.0) continue;
-    const double wanted = std::min(recoveryShare * depth / h, most);
+    const double wanted = std::min(recoveryShare * depth / step_, most);
     const double missing = wanted - velocity.dot(wall.overlap.normal);
     if (missing > 0.0) velocity += missing * wall.overlap.normal;
   }
@@ -88,18 +114,17 @@ Vector2 Encounter::recoveryVelocity(double h) const {
   return speed > most ? Vector2(most / speed * velocity) : velocity;
 }
 
-// The next touch after `from`, and its wall; null if there is none before `until`.
-Encounter::NextTouch Encounter::nextTouch(double from, double until) {
+// The next touch, and its wall; null if there is none before `until`.
+Encounter::NextTouch Encounter::nextTouch(double until) {
   NextTouch next{.time = until, .wall = nullptr};
   const Sweep sweep(vehicle_.outline, vehicle_.body.motion);
   for (Manifold& wall : contacts_.all()) {
     if (wall.passed) continue;
-    const double start = std::max(from, wall.ignoredUntil);
+    const double start = std::max(time_, wall.ignoredUntil);
     if (start > next.time) continue;
-    // The body's motion is that at `from`.
     const double time =
-        from + sweep.timeOfTouch(wall.segment, wall.touched ? &wall.overlap : nullptr, start - from,
-                                 next.time - from);
+        time_ + sweep.timeOfTouch(wall.segment, wall.touched ? &wall.overlap : nullptr,
+                                  start - time_, next.time - time_);
     if (time <= next.time) next = {.time = time, .wall = &wall};
   }
   return next;
@@ -107,7 +132,7 @@ Encounter::NextTouch Encounter::nextTouch(double from, double until) {
 
 // How long a touched wall needs no check, s: until then no contact point can approach or be deeper
 // than `unseenDepth`.
-double Encounter::quietTime(const Manifold& wall, double h) const {
+double Encounter::quietTime(const Manifold& wall) const {
   const PlanarMotion& motion = vehicle_.body.motion;
   const double acceleration = vehicle_.gapAcceleration();
   if (wall.hidden) return leastTime(unseenDepth, 0.0, acceleration);
@@ -121,8 +146,8 @@ double Encounter::quietTime(const Manifold& wall, double h) const {
         !overlap.byEnd && std::min(along - overlap.start, overlap.end - along) > touchTolerance;
     // Turning draws a corner away from the wall as long as it lies on the wall's side of the mass
     // centre; at the step's end, too.
-    const double highest =
-        overlap.normal.dot(contact.arm) + std::abs(motion.yawRate) * h * vehicle_.outline.radius();
+    const double highest = overlap.normal.dot(contact.arm) +
+                           std::abs(motion.yawRate) * step_ * vehicle_.outline.radius();
     if (!isCorner || highest > 0.0) {
       time = std::min(time, leastTime(unseenDepth, -overlap.normal.dot(velocity), acceleration));
     }
@@ -131,12 +156,12 @@ double Encounter::quietTime(const Manifold& wall, double h) const {
 }
 
 // How long no current contact needs a check, s.
-double Encounter::pause(double h) const {
+double Encounter::pause() const {
   double time = never;
   for (const Manifold& wall : contacts_.all()) {
-    if (wall.touched && !wall.passed) time = std::min(time, quietTime(wall, h));
+    if (wall.touched && !wall.passed) time = std::min(time, quietTime(wall));
   }
-  return std::max(time, h / looksInStep);
+  return std::max(time, step_ / looksInStep);
 }
 
 std::span<const SpeculativeContact> Encounter::speculativeContacts(const PlanarMotion& motion,

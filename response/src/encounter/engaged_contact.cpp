@@ -89,19 +89,20 @@ class Chain {
     // Not one that lies on the last one again; of a vertex that is touched, not one of the other
     // way.
     const double most = way.touched == nullptr ? std::numbers::pi - inLine : 0.5 * std::numbers::pi;
+    const double least = way.last != nullptr ? -std::numbers::pi : -0.5 * std::numbers::pi;
     Next next;
     forEachEnd(
         way, [&](const Manifold& wall, double distance, const Vector2& from, const Vector2& to) {
           if (distance > nearest && &wall != way.touched) return;
           const Vector2 along = (to - from).normalized();
           const double turn = std::atan2(way.side * cross(way.along, along), way.along.dot(along));
-          if (turn > next.turn && turn <= most) next = {&wall, to, along, turn};
+          if (turn > next.turn && turn >= least && turn <= most) next = {&wall, to, along, turn};
         });
     return next;
   }
 
-  // Calls with each wall that has an end within jointWidth of the way's place, that end, and the
-  // other one.
+  // Calls with each wall that has an end within jointWidth of the way's place, the nearer one if
+  // both are, that end, and the other one.
   template <typename Call>
   void forEachEnd(const Way& way, const Call& call) const {
     for (const Manifold& wall : contacts_.all()) {
@@ -109,8 +110,12 @@ class Chain {
       const Segment& segment = wall.segment;
       const double toStart = (segment.start - way.place).norm();
       const double toEnd = (segment.end - way.place).norm();
-      if (toStart <= jointWidth) call(wall, toStart, segment.start, segment.end);
-      if (toEnd <= jointWidth) call(wall, toEnd, segment.end, segment.start);
+      if (std::min(toStart, toEnd) > jointWidth) continue;
+      if (toStart < toEnd) {
+        call(wall, toStart, segment.start, segment.end);
+      } else {
+        call(wall, toEnd, segment.end, segment.start);
+      }
     }
   }
 

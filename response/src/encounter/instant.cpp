@@ -3,12 +3,10 @@
 #include "instant.h"
 
 #include <algorithm>
-#include <array>
 
 #include "../tolerances.h"
 #include "bumper/response/collision_step.h"
 #include "bumper/response/sweep.h"
-#include "end_approach.h"
 
 namespace bumper {
 
@@ -21,6 +19,9 @@ constexpr int maxAnswers = CollisionStep::maxAnswers;
 constexpr int plasticAfter = 8;
 constexpr int togetherAfter = 16;
 constexpr int plasticInStepAfter = 40;
+
+// Times that differ by less, s, do so by rounding.
+constexpr double atOnceTime = 1e-12;
 
 // Solved together are the last impacts of a step, and those before which as many were not.
 constexpr int mostTogether = (maxAnswers - 1) / (togetherAfter + 1) + 1;
@@ -40,7 +41,7 @@ void Instant::begin(double step) {
   impacts_.clear();
 }
 
-Settled Instant::settle(double time) {
+Settled Instant::settle(double time, Effort effort) {
   for (int count = 0;; ++count) {
     Next next = firstNewWall();
     if (next.wall == nullptr) next = fastestStruckWall();
@@ -54,7 +55,8 @@ Settled Instant::settle(double time) {
     const Overlap& overlap = next.wall->overlap;
     const bool slides = time > 0.0 && overlap.byEnd && overlap.depth > freshDepth &&
                         next.at.speed <= vehicle_.gapAcceleration() * step_ / looksInStep;
-    const bool tooMany = count >= plasticAfter || (!slides && answers_ >= plasticInStepAfter);
+    const bool tooMany = effort == Effort::plastic || count >= plasticAfter ||
+                         (!slides && answers_ >= plasticInStepAfter);
     Rebound rebound = slides ? Rebound::elastic : Rebound::as_set;
     if (tooMany) rebound = Rebound::none;
     answer(next, time, rebound);
@@ -62,21 +64,27 @@ Settled Instant::settle(double time) {
   }
 }
 
-// Of the walls that have had no impulse yet the one that was touched the longest time ago.
+// Of the walls that have had no impulse yet the one that was touched the longest time ago; of walls
+// that were touched at once, as at a vertex, the one that faces the outline the most.
 Instant::Next Instant::firstNewWall() {
   Next next;
   double longest = -1.0;
+  double mostFacing = 0.0;
   for (Manifold& wall : contacts_.all()) {
     if (!wall.touched || wall.hidden || wall.struck || wall.passed) continue;
     const Approach first = contacts_.touching(wall);
     if (first.speed <= restTolerance) continue;
     const double since = ContactSet::sinceTouch(wall, first.speed);
-    if (since <= longest) continue;
+    const double facing = std::abs(wall.segment.normal.dot(first.normal));
+    const bool atOnce = std::abs(since - longest) <= atOnceTime;
+    if (atOnce ? facing <= mostFacing : since < longest) continue;
     wall.answered = contacts_.answerTo(wall, first);
-    const Approach& at = wall.answered.at;
-    if (wall.answered.yields && at.speed <= restTolerance) continue;
+    Approach at = wall.answered.at;
+    if (at.speed <= restTolerance && wall.answered.yielding == 0.0) at = first;
+    if (!wall.answered.meets || at.speed <= restTolerance) continue;
     longest = since;
-    next = {.wall = &wall, .at = at.speed > restTolerance ? at : first};
+    mostFacing = facing;
+    next = {.wall = &wall, .at = at};
   }
   return next;
 }
@@ -92,7 +100,7 @@ Instant::Next Instant::fastestStruckWall() {
     };
     const Approach& answered = wall.answered.at;
     consider(contacts_.approach(answered.contact, answered.normal));
-    if (!wall.answered.yields) consider(contacts_.touching(wall));
+    consider(contacts_.touching(wall, wall.answered));
   }
   return next;
 }
@@ -111,22 +119,17 @@ void Instant::answer(const Next& next, double time, Rebound rebound) {
   }
 }
 
-// All contacts act at once. They are reported as successive impacts, each consistent with its own
-// arm, and their sum with the total: the energy they dissipate is shared by impulse and approach
-// speed.
-void Instant::answerTogether(double time) {
-  std::array<TouchingPoint, mostTouchingPoints> points;
-  std::array<Next, mostTouchingPoints> owners;
+std::span<const TouchingPoint> Instant::touchingPoints() {
   std::size_t count = 0;
   for (Manifold& wall : contacts_.all()) {
     if (!wall.touched || wall.hidden || wall.passed) continue;
     const auto add = [&](const Approach& at) {
-      if (count == points.size()) return;
-      points[count] = {.normal = at.normal, .arm = at.contact.arm};
-      owners[count++] = {.wall = &wall, .at = at};
+      if (count == points_.size()) return;
+      points_[count] = {.normal = at.normal, .arm = at.contact.arm};
+      owners_[count++] = {.wall = &wall, .at = at};
     };
     const Answer answer = contacts_.answerTo(wall, contacts_.touching(wall));
-    if (answer.yields) {
+    if (answer.yielding > 0.0) {
       if (answer.meets) add(answer.at);
       continue;
     }
@@ -134,10 +137,27 @@ void Instant::answerTogether(double time) {
       add(contacts_.approach(contact, wall.overlap.normal));
     }
   }
+  return {points_.data(), count};
+}
+
+void Instant::takePart(std::size_t point, double impulse, double time) {
+  const auto& [wall, at] = owners_[point];
+  ImpactResponse response =
+      plainResponse({.normal = at.normal, .arm = at.contact.arm}, vehicle_.body,
+                    onVehicle({.normal = impulse}, at.normal, at.contact.arm));
+  response.approachSpeed = at.speed;
+  record(*wall, at, time, response);
+}
+
+// All contacts act at once. They are reported as successive impacts, each consistent with its own
+// arm, and their sum with the total: the energy they dissipate is shared by impulse and approach
+// speed.
+void Instant::answerTogether(double time) {
+  const std::span<const TouchingPoint> points = touchingPoints();
   const PlanarBody before = vehicle_.body;
-  SharedImpulse impulse = endApproach(before, std::span(points.data(), count));
+  SharedImpulse impulse = endApproach(before, points);
   const std::span<CarryingPoint> shares = impulse.all();
-  const auto speedAt = [&](const CarryingPoint& share) { return owners[share.point].at.speed; };
+  const auto speedAt = [&](const CarryingPoint& share) { return owners_[share.point].at.speed; };
   for (auto next = shares.begin(); next != shares.end(); ++next) {
     std::iter_swap(next, std::max_element(next, shares.end(), [&](const auto& a, const auto& b) {
                      return speedAt(a) < speedAt(b);
@@ -156,7 +176,7 @@ void Instant::answerTogether(double time) {
 
   PlanarImpulse left = impulse.sum;
   for (const CarryingPoint& share : shares) {
-    const auto& [wall, at] = owners[share.point];
+    const auto& [wall, at] = owners_[share.point];
     const bool last = &share == &shares.back();
     // The last one absorbs the rounding.
     const PlanarImpulse part =

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "bumper/response/step_outcome.h"
 #include "contact_set.h"
+#include "end_approach.h"
 #include "participant.h"
 
 namespace bumper {
@@ -20,6 +23,12 @@ enum class Settled {
   for_now  ///< by the last impulse that a step allows: the vehicle is held until the next one
 };
 
+/// Whether the settings' rebound is still asked for at an instant.
+enum class Effort {
+  as_set,
+  plastic  ///< so often answered already that nothing rebounds any more
+};
+
 /// Applies impulses at one instant until nothing that touches approaches.
 class Instant {
  public:
@@ -28,8 +37,15 @@ class Instant {
   /// Before the first instant of a step of `step` seconds.
   void begin(double step);
 
-  /// `time` seconds into the step. The contacts are those of now.
-  Settled settle(double time);
+  /// `time` seconds into the step. The contacts are those of now. Called again at the same instant
+  /// it goes on: walls that were answered count as such.
+  Settled settle(double time, Effort effort = Effort::as_set);
+
+  /// For impulses at all walls that are touched now, and at other vehicles, at once: the points
+  /// that they act at, and the part at one of them, N s along its normal. Valid until the next
+  /// settle().
+  std::span<const TouchingPoint> touchingPoints();
+  void takePart(std::size_t point, double impulse, double time);
 
   /// Of all instants since begin().
   [[nodiscard]] std::span<const StepImpact> impacts() const { return impacts_; }
@@ -53,6 +69,9 @@ class Instant {
   double step_ = 0.0;
   int answers_ = 0;
   std::vector<StepImpact> impacts_;
+  // All contacts that act together.
+  std::array<TouchingPoint, mostTouchingPoints> points_;
+  std::array<Next, mostTouchingPoints> owners_;
 };
 
 }  // namespace bumper

@@ -18,6 +18,9 @@ constexpr double steepest = 0.95;
 
 constexpr double reachShare = 0.25;  // of the smallest feature
 
+// Shares that differ by less do so by rounding.
+constexpr double sameShare = 1e-12;
+
 // Of the outline along a direction, from the origin of the plane, m.
 double lowest(const Outline& outline, const Placement& at, const Vector2& up) {
   double least = std::numeric_limits<double>::infinity();
@@ -49,6 +52,7 @@ Yielding yieldingOf(const ContactSet& contacts, const Manifold& struck, const Ve
   const Segment& wall = struck.segment;
   if (!(size > 0.0) || wall.isPost()) return result;
   const Outline near = outline.grown(2.0 * size);
+  double shortest = std::numeric_limits<double>::infinity();
   const std::optional<Vector2> end = struck.overlap.byEnd ? endAt(wall, touched) : std::nullopt;
   for (const Manifold& other : contacts.all()) {
     if (&other == &struck || other.passed || other.segment.isPost()) continue;
@@ -68,10 +72,14 @@ Yielding yieldingOf(const ContactSet& contacts, const Manifold& struck, const Ve
     const double worst = std::max(exposed, covered - exposed) + run;
     const double share =
         across * std::clamp(ahead / size, 0.0, 1.0) * std::clamp(2.0 - worst / size, 0.0, 1.0);
-    if (share <= result.share || risesFrom(contacts, struck, top, up)) continue;
-    result = {.aside = std::max(std::min(covered, share * size), 0.0) * up,
-              .share = share,
-              .reach = reachShare * size};
+    const double aside = std::max(std::min(covered, share * size), 0.0);
+    // Of several that it slides on alike the nearest one.
+    const bool alike = std::abs(share - result.share) <= sameShare;
+    const double way = ahead + aside;
+    if (share <= 0.0 || (alike ? way >= shortest : share < result.share)) continue;
+    if (risesFrom(contacts, struck, top, up)) continue;
+    shortest = way;
+    result = {.aside = aside * up, .share = share, .reach = reachShare * size};
   }
   return result;
 }

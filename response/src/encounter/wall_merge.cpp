@@ -59,9 +59,10 @@ std::span<const Segment> WallMerge::merge(std::span<const Segment> segments,
   oriented_.clear();
   order_.clear();
   for (const Segment& wall : segments) {
-    order_.push_back({.piece = oriented_.size()});
-    oriented_.push_back(oriented(wall, centre));
-    order_.back().place = turnedLeft(oriented_.back().normal).dot(oriented_.back().start);
+    const Segment& piece = oriented_.emplace_back(oriented(wall, centre));
+    order_.push_back({.piece = oriented_.size() - 1,
+                      .place = turnedLeft(piece.normal).dot(piece.start),
+                      .length = (piece.end - piece.start).norm()});
   }
   // An order that does not depend on the mesh's; along one line it is the order of the pieces.
   const auto others = [this](const Ordered& each) {
@@ -72,24 +73,44 @@ std::span<const Segment> WallMerge::merge(std::span<const Segment> segments,
   std::sort(order_.begin(), order_.end(), [&others](const Ordered& a, const Ordered& b) {
     return a.place != b.place ? a.place < b.place : others(a) < others(b);
   });
+  // A wall has the line of its longest piece, from whichever end it is seen.
   merged_.clear();
-  for (const Ordered& each : order_) {
-    const Segment& piece = oriented_[each.piece];
-    const auto whole = std::find_if(merged_.begin(), merged_.end(), [&](const Segment& wall) {
-      return continues(wall, piece, surfaces);
-    });
-    if (whole == merged_.end()) {
-      merged_.push_back(piece);
-      continue;
-    }
-    const Vector2 tangent = turnedLeft(whole->normal);
-    // On the line itself: a touch is looked for along the line, and found at the segment.
-    const double length = tangent.dot(piece.end - whole->start);
-    if (length > tangent.dot(whole->end - whole->start)) {
-      whole->end = whole->start + length * tangent;
-    }
+  while (merged_.size() < order_.size()) {
+    const auto longest =
+        std::max_element(order_.begin(), order_.end(), [](const Ordered& a, const Ordered& b) {
+          return a.merged != b.merged ? a.merged : !a.merged && a.length < b.length;
+        });
+    if (longest->merged) break;
+    longest->merged = true;
+    join(merged_.emplace_back(oriented_[longest->piece]), surfaces);
   }
   return merged_;
+}
+
+// Adds all pieces that continue a wall at either end, and on from there.
+void WallMerge::join(Segment& wall, std::span<const Surface> surfaces) {
+  const Vector2 tangent = turnedLeft(wall.normal);
+  const Vector2 origin = wall.start;
+  double low = 0.0;
+  const double length = tangent.dot(wall.end - origin);
+  double high = length;
+  bool grows = false;
+  const auto add = [&](Ordered& each) {
+    const Segment& piece = oriented_[each.piece];
+    if (each.merged || !continues(wall, piece, surfaces)) return;
+    each.merged = grows = true;
+    // On the line itself: a touch is looked for along the line, and found at the segment.
+    low = std::min(low, tangent.dot(piece.start - origin));
+    high = std::max(high, tangent.dot(piece.end - origin));
+    if (low < 0.0) wall.start = origin + low * tangent;
+    if (high > length) wall.end = origin + high * tangent;
+  };
+  // In order, so that once there and back is enough for a row.
+  do {
+    grows = false;
+    std::for_each(order_.begin(), order_.end(), add);
+    std::for_each(order_.rbegin(), order_.rend(), add);
+  } while (grows);
 }
 
 int WallMerge::pieceAt(const Segment& merged, const Vector2& point) const {

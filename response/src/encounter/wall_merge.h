@@ -24,7 +24,11 @@ class WallMerge {
   struct Ordered {
     std::size_t piece = 0;
     double place = 0.0;
+    double length = 0.0;
+    bool merged = false;
   };
+
+  void join(Segment& wall, std::span<const Surface> surfaces);
 
   std::span<const Segment> given_;
   std::vector<Segment> oriented_;

@@ -26,6 +26,12 @@ enum class Delivery {
 struct ResponderOptions {
   /// How walls respond, unless their barrier has settings of its own.
   ResponseSettings response{};
+  /// Whether vehicles respond to each other too, and how, unless Responder::setPair() says
+  /// otherwise for two of them. Settings are of the pair, not of either vehicle: curves of two
+  /// could not be mixed without a law for it. Under Method::paper vehicles do not respond to each
+  /// other, and settings that break are an Error.
+  bool vehiclesCollide = true;
+  ResponseSettings vehicleResponse{};
   Delivery delivery = Delivery::force_pulse;
   /// Whether a vehicle that joints or contacts act on gets guard contacts: contact joints with the
   /// walls nearby, for one step, that keep it from being pushed through them. A free body gets
@@ -137,6 +143,11 @@ class Responder {
   /// bodies' own values are used.
   VehicleId addVehicle(dBodyID chassis, const VehicleParameters& parameters,
                        const VehicleOptions& options = {});
+
+  /// How two vehicles respond to each other from now on, in either order. Vehicles that a joint
+  /// connects, but for contact joints, do not, whatever is set. Throws Error if they are the same
+  /// or a setting is invalid.
+  void setPair(VehicleId a, VehicleId b, const PairOptions& options);
 
   /// The geoms and bodies may be gone. Unknown ids are an Error.
   void removeBarrier(BarrierId barrier);

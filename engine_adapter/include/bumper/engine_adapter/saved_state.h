@@ -23,9 +23,16 @@ struct PassableWall {
   double depth = 0.0;                                ///< penetration that the pulse allows, m
 };
 
+/// What a vehicle is in contact with: a barrier, or another vehicle, registered later.
+struct ContactPartner {
+  BarrierId barrier{};
+  VehicleId vehicle{};
+  bool operator==(const ContactPartner&) const = default;
+};
+
 /// A contact that has begun and not ended.
 struct SustainedContact {
-  BarrierId barrier;
+  ContactPartner with{};
   int wall = 0;  ///< number of the wall in the barrier that was touched last
   double begun = 0.0;
   double last = 0.0;
@@ -35,6 +42,14 @@ struct SustainedContact {
   double load = 0.0;            ///< N, along the normal: the recent maximum, decaying
   Eigen::Vector3d contact = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+};
+
+/// Another vehicle, registered later, that was hit of late.
+struct VehicleHit {
+  VehicleId vehicle;
+  double last = 0.0;  ///< when, at a speed above the settings' rest speed
+  double passableUntil =
+      0.0;  ///< the end of a long force pulse, until which no other impact occurs
 };
 
 /// What the last step() added to a vehicle's bodies, and the chassis' state then.
@@ -57,7 +72,7 @@ struct Expectation {
 
 /// A guard contact of the last step, and its force.
 struct GuardLoad {
-  BarrierId barrier;
+  ContactPartner with{};
   int wall = 0;  ///< number in the barrier
   Eigen::Vector3d contact = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, into the vehicle
@@ -73,6 +88,7 @@ struct VehicleMemory {
   LastDelivery delivery;
   Expectation expectation;
   std::vector<PassableWall> passable;
+  std::vector<VehicleHit> hits;
   std::vector<SustainedContact> contacts;
   std::vector<GuardLoad> guards;  ///< in a saved state only
 };

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "bumper/response/response_settings.h"
 #include "bumper/response/vehicle_parameters.h"
 
 namespace bumper {
@@ -28,6 +29,14 @@ Band defaultBand(const VehicleParameters& vehicle);
 
 /// The paper's plate at mass-centre height.
 Band plateBand(const VehicleParameters& vehicle);
+
+/// How two vehicles of one responder respond to each other.
+struct PairOptions {
+  /// False: their contacts are ODE's, as if one of them were not registered.
+  bool collide = true;
+  /// Empty: ResponderOptions::vehicleResponse.
+  std::optional<ResponseSettings> response{};
+};
 
 struct VehicleOptions {
   /// The name in events; empty: "vehicle <number>".

@@ -32,7 +32,8 @@ struct ImpactResponse {
   PlanarImpulse impulse;  ///< on the vehicle
   PlanarMotion before;    ///< of the vehicle
   PlanarMotion after;
-  PlanarMotion otherAfter;  ///< of the other body
+  PlanarMotion otherBefore;  ///< of the other body
+  PlanarMotion otherAfter;
 };
 
 /// The direction of attack of an impact of a vehicle that moves as `motion` says on a fixed wall.
@@ -61,9 +62,16 @@ ImpactResponse respond(const Impact& impact, const PlanarBody& vehicle,
 ImpactResponse respond(const Impact& impact, const PlanarBody& vehicle, const PlanarBody& other,
                        const ResponseSettings& settings, Rebound rebound = Rebound::as_set);
 
-/// The response to an impact on a fixed wall by a given impulse, without a law: one of those that
-/// end the approach at several points at once.
+/// The response with `share`, in [0, 1], of its impulse: of a contact that is hardly one. It adds
+/// no energy if the whole one does not.
+ImpactResponse reduced(const ImpactResponse& whole, const Impact& impact, const PlanarBody& vehicle,
+                       const PlanarBody& other, double share);
+
+/// The response to an impact on a fixed wall, or on another body, by a given impulse, without a
+/// law: one of those that end the approach at several points at once.
 ImpactResponse plainResponse(const Impact& impact, const PlanarBody& vehicle,
                              const PlanarImpulse& impulse);
+ImpactResponse plainResponse(const Impact& impact, const PlanarBody& vehicle,
+                             const PlanarBody& other, const PlanarImpulse& impulse);
 
 }  // namespace bumper

@@ -18,20 +18,28 @@ enum class EventPhase {
                   ///< contact
 };
 
-/// One impact, for applications. SI units; vectors in the world frame (right-handed, z up) unless
-/// they say otherwise; yaw rates about the vehicle's own z axis, positive turning left. The names
-/// stay valid as long as the vehicle and the barrier are registered.
+/// One impact of a vehicle on a barrier, or of two vehicles, for applications; the latter is told
+/// once, by the one that was registered first. SI units; vectors in the world frame (right-handed,
+/// z up) unless they say otherwise; yaw rates about the vehicle's own z axis, positive turning
+/// left. The names stay valid as long as the vehicle and the barrier are registered.
 struct ImpactEvent {
   double time = 0.0;  ///< of the impact within its step, counted by the steps taken, s
   EventPhase phase = EventPhase::impact;
   std::string_view vehicle;
-  std::string_view barrier;
-  int triangle = -1;  ///< in the barrier's own mesh
+  std::string_view barrier;       ///< what it hit; empty if that is …
+  std::string_view otherVehicle;  ///< … another vehicle; empty for a barrier
+  int triangle = -1;              ///< in the barrier's own mesh
   std::string_view material;
 
-  Eigen::Vector3d contact = Eigen::Vector3d::Zero();  ///< on the wall, at mass-centre height
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();   ///< unit, out of the wall into the vehicle
+  Eigen::Vector3d contact = Eigen::Vector3d::Zero();  ///< at mass-centre height
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();   ///< unit, into the vehicle
   Vector2 arm = Vector2::Zero();  ///< mass centre to contact point in the vehicle's frame
+  /// Of the other vehicle: the same in its frame, and its motion before and after; else 0.
+  Vector2 otherArm = Vector2::Zero();
+  Eigen::Vector3d otherVelocityBefore = Eigen::Vector3d::Zero();
+  Eigen::Vector3d otherVelocityAfter = Eigen::Vector3d::Zero();
+  double otherYawRateBefore = 0.0;
+  double otherYawRateAfter = 0.0;
 
   Law law = Law::restitution;
   AnglesOfAttack angles;
@@ -50,7 +58,7 @@ struct ImpactEvent {
   Eigen::Vector3d velocityAfter = Eigen::Vector3d::Zero();
   double energyAsked = 1.0;  ///< P; NaN under the restitution law
   double energyRatio = 1.0;
-  double energyLost = 0.0;  ///< yaw-plane energy, J
+  double energyLost = 0.0;  ///< yaw-plane energy of all that moves, J
   double duration = 0.0;    ///< of a contact that has ended, s
   EnergyOutcome outcome = EnergyOutcome::not_asked;
   Regime regime = Regime::separating;

@@ -24,6 +24,8 @@ struct ResponseSettings {
   AngleDefinition angle = AngleDefinition::contact_velocity;
   /// e(α), values in [0, 1] (Figure 4).
   AngleCurve restitution = AngleCurve::cosine(0.3, 0.05);
+  /// What e refers to; Method::bumper and the restitution law only.
+  RestitutionKind restitutionKind = RestitutionKind::newton;
   /// μ(α), values ≥ 0; with fraction_of_critical in [0, 1].
   AngleCurve friction = AngleCurve::cosine(0.3, 0.0);
   /// The energy law and Method::paper support coulomb only.

@@ -24,6 +24,12 @@ struct Friction {
   double value = 0.0;  ///< ≥ 0; a fraction of the critical ratio lies in [0, 1]
 };
 
+/// What restitution refers to.
+enum class RestitutionKind {
+  newton,         ///< the normal velocity after, −e v_n; friction is that of the whole impact
+  kudlich_slibar  ///< the whole impulse, 1 + e times the one that ends the approach
+};
+
 /// A law's solution for one contact point.
 struct ContactSolution {
   ContactImpulse impulse;         ///< on the vehicle, N s
@@ -49,6 +55,12 @@ struct ContactSolution {
 /// 0, A B > C².
 ContactSolution solveRestitution(const ContactMobility& mobility, const ContactVelocity& before,
                                  double restitution, const Friction& friction);
+
+/// The law of Kudlich and Slibar, which reconstruction programs use: the impulse that ends the
+/// approach, with friction up to the ratio that ends the slip too, times 1 + e. It never adds
+/// energy for e ≤ 1. Ranges as above.
+ContactSolution solveKudlichSlibar(const ContactMobility& mobility, const ContactVelocity& before,
+                                   double restitution, const Friction& friction);
 
 /// Eq. 17 as printed: full friction against the initial slip, even if that reverses it. Added are
 /// only the test for a separating contact, and no impulse where h − μk ≤ 0.

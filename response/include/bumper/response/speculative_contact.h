@@ -61,4 +61,35 @@ class SpeculativeContacts {
   std::size_t count_ = 0;
 };
 
+/// A point where two outlines may meet within a step, in the plane of the pair.
+struct SpeculativePairContact {
+  Vector2 normal = Vector2::Zero();    ///< unit, out of the second into the first
+  Vector2 arm = Vector2::Zero();       ///< from the first's mass centre at the step's end, m
+  Vector2 otherArm = Vector2::Zero();  ///< … and the second's
+  Vector2 velocity = Vector2::Zero();  ///< of the first relative to the second, m/s
+  double gap = 0.0;                    ///< as above
+  double room = 0.0;
+};
+
+/// An outline in a step: its motion at the start, and at the end without other loads.
+struct OutlineInStep {
+  Outline outline;
+  PlanarMotion start;
+  PlanarMotion end;
+};
+
+/// One or two such points, along the side that separates the outlines best at the step's end; none
+/// if they are further apart than `distance`, m. `depth` is the overlap allowed, m.
+struct SpeculativePairContacts {
+  std::array<SpeculativePairContact, 2> contacts{};
+  std::size_t count = 0;
+
+  [[nodiscard]] std::span<const SpeculativePairContact> all() const {
+    return {contacts.data(), count};
+  }
+};
+SpeculativePairContacts speculativePairContacts(const OutlineInStep& first,
+                                                const OutlineInStep& second, double distance,
+                                                double depth, double step);
+
 }  // namespace bumper

@@ -1,0 +1,28 @@
+#include "bumper/response/island_step.h"
+
+#include "encounter/island.h"
+
+namespace bumper {
+
+IslandStep::IslandStep() : island_(std::make_unique<Island>()) {}
+IslandStep::~IslandStep() = default;
+IslandStep::IslandStep(IslandStep&&) noexcept = default;
+IslandStep& IslandStep::operator=(IslandStep&&) noexcept = default;
+
+void IslandStep::resolve(std::span<const IslandMember> members, std::span<const IslandPair> pairs,
+                         double h) {
+  island_->resolve(members, pairs, h);
+}
+
+StepOutcome IslandStep::outcome(std::size_t member) const { return island_->outcome(member); }
+
+std::span<const PairImpact> IslandStep::pairImpacts() const { return island_->pairImpacts(); }
+
+std::span<const SpeculativeContact> IslandStep::speculativeContacts(std::size_t member,
+                                                                    const PlanarMotion& motion,
+                                                                    const PlanarMotion& after,
+                                                                    double distance, double h) {
+  return island_->speculativeContacts(member, motion, after, distance, h);
+}
+
+}  // namespace bumper
