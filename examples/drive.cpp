@@ -241,11 +241,9 @@ class LoadProgress {
 
 Scene load(const Arguments& arguments) {
   LoadProgress line;
-  return loadScene(arguments.scene, "--up",
-                   {.up = upAxis(arguments.up),
-                    .scale = arguments.scale,
-                    .isolate = true,
-                    .progress = std::ref(line)});
+  return loadScene(
+      arguments.scene, "--up",
+      {.up = upAxis(arguments.up), .scale = arguments.scale, .progress = std::ref(line)});
 }
 
 // So that the recording finds its scene again when both are moved together.

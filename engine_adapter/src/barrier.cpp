@@ -45,7 +45,8 @@ Scene sceneOfBox(dGeomID box, const std::string& name) {
 
 Barrier::Barrier(BarrierId id, const Scene& scene, const BarrierOptions& options, std::string name,
                  const ResponseSettings& usual)
-    : id_(id), name_(std::move(name)), options_(options), hasScene_(true) {
+    : id_(id), name_(std::move(name)), hasScene_(true) {
+  keepOptions(options);
   mesh_.emplace(scene, options, name_);
   keepGeom(mesh_->geom());
   keepSettings(usual);
@@ -53,7 +54,8 @@ Barrier::Barrier(BarrierId id, const Scene& scene, const BarrierOptions& options
 
 Barrier::Barrier(BarrierId id, dGeomID geom, const BarrierOptions& options, std::string name,
                  const ResponseSettings& usual)
-    : id_(id), name_(std::move(name)), options_(options), hasScene_(false) {
+    : id_(id), name_(std::move(name)), hasScene_(false) {
+  keepOptions(options);
   switch (dGeomGetClass(geom)) {
     case dTriMeshClass:
       mesh_.emplace(geom, options, name_);
@@ -76,10 +78,18 @@ Barrier::Barrier(BarrierId id, dGeomID geom, const BarrierOptions& options, std:
 
 Barrier::Barrier(BarrierId id, dGeomID geom, const Scene& shape, const BarrierOptions& options,
                  std::string name, const ResponseSettings& usual)
-    : id_(id), name_(std::move(name)), options_(options), hasScene_(true) {
+    : id_(id), name_(std::move(name)), hasScene_(true) {
+  keepOptions(options);
   mesh_.emplace(shape, geom, options, name_);
   keepGeom(geom);
   keepSettings(usual);
+}
+
+// The pattern belongs to the caller, and is read again when the walls are.
+void Barrier::keepOptions(const BarrierOptions& options) {
+  options_ = options;
+  scenery_ = options.walls.scenery;
+  options_.walls.scenery = scenery_;
 }
 
 void Barrier::keepGeom(dGeomID geom) {

@@ -24,6 +24,11 @@ class Barrier {
   /// A geom of the application's whose shape is given as a scene.
   Barrier(BarrierId id, dGeomID geom, const Scene& shape, const BarrierOptions& options,
           std::string name, const ResponseSettings& usual);
+  ~Barrier() = default;
+  Barrier(const Barrier&) = delete;
+  Barrier& operator=(const Barrier&) = delete;
+  Barrier(Barrier&&) = delete;
+  Barrier& operator=(Barrier&&) = delete;
 
   [[nodiscard]] BarrierId id() const { return id_; }
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -76,12 +81,14 @@ class Barrier {
   [[nodiscard]] double lowestTop() const;
 
  private:
+  void keepOptions(const BarrierOptions& options);
   void keepGeom(dGeomID geom);
   void keepSettings(const ResponseSettings& usual);
 
   BarrierId id_;
   std::string name_;
   BarrierOptions options_;
+  std::string scenery_;  // what options_ refers to
   bool hasScene_;
   dGeomID geom_ = nullptr;
   int geomClass_ = dTriMeshClass;

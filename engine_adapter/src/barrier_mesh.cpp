@@ -95,7 +95,7 @@ BarrierMesh::BarrierMesh(const Scene& scene, const BarrierOptions& options, std:
     keepFoot(wall, foot);
   }
   buildMesh();
-  lent_.emplace(options.space, data_, walls_.origin(), 0.5 * (low_ + high_));
+  lent_.emplace(options.space, data_.get(), walls_.origin(), 0.5 * (low_ + high_));
   geom_ = lent_->address();
 }
 
@@ -120,12 +120,6 @@ BarrierMesh::BarrierMesh(dGeomID trimesh, const BarrierOptions& options, std::st
     keepFoot(static_cast<std::size_t>(foot.triangle), foot);
   }
   buildMesh();
-}
-
-BarrierMesh::~BarrierMesh() {
-  lent_.reset();
-  dGeomDestroy(queryGeom_);
-  dGeomTriMeshDataDestroy(data_);
 }
 
 void BarrierMesh::keepParts(const std::vector<WallPart>& parts) {
@@ -203,15 +197,15 @@ void BarrierMesh::buildMesh() {
   const std::vector<double>& vertices = walls_.vertices();
   const std::vector<dTriIndex>& indices = walls_.indices();
   const std::scoped_lock guard(trimeshLock());
-  data_ = dGeomTriMeshDataCreate();
-  dGeomTriMeshDataBuildDouble(data_, vertices.data(), 3 * sizeof(double),
+  data_.reset(dGeomTriMeshDataCreate());
+  dGeomTriMeshDataBuildDouble(data_.get(), vertices.data(), 3 * sizeof(double),
                               static_cast<int>(vertices.size() / 3), indices.data(),
                               static_cast<int>(indices.size()), 3 * sizeof(dTriIndex));
-  queryGeom_ = dCreateTriMesh(nullptr, data_, nullptr, nullptr, nullptr);
-  dGeomTriMeshSetCallback(queryGeom_, &noContact);
-  dGeomTriMeshSetArrayCallback(queryGeom_, &collectTriangles);
+  queryGeom_.reset(dCreateTriMesh(nullptr, data_.get(), nullptr, nullptr, nullptr));
+  dGeomTriMeshSetCallback(queryGeom_.get(), &noContact);
+  dGeomTriMeshSetArrayCallback(queryGeom_.get(), &collectTriangles);
   const Eigen::Vector3d& origin = walls_.origin();
-  dGeomSetPosition(queryGeom_, origin.x(), origin.y(), origin.z());
+  dGeomSetPosition(queryGeom_.get(), origin.x(), origin.y(), origin.z());
   report_.memory = memory();
 }
 
@@ -248,9 +242,9 @@ bool BarrierMesh::reaches(const Eigen::Vector3d& centre, double radius) const {
 void BarrierMesh::list(dGeomID box, std::vector<int>& walls) const {
   walls.clear();
   const std::scoped_lock guard(trimeshLock());
-  dGeomSetData(queryGeom_, &walls);
+  dGeomSetData(queryGeom_.get(), &walls);
   dContactGeom unused;
-  dCollide(box, queryGeom_, 1, &unused, sizeof unused);
+  dCollide(box, queryGeom_.get(), 1, &unused, sizeof unused);
 }
 
 }  // namespace bumper

@@ -12,6 +12,7 @@
 #include "bumper/scenes/wall_parts.h"
 #include "bumper/scenes/wall_plan.h"
 #include "lent_geom.h"
+#include "ode_handles.h"
 #include "wall_table.h"
 
 namespace bumper {
@@ -25,7 +26,7 @@ class BarrierMesh {
   BarrierMesh(const Scene& scene, dGeomID geom, const BarrierOptions& options, std::string name);
   /// The walls of the application's trimesh.
   BarrierMesh(dGeomID trimesh, const BarrierOptions& options, std::string name);
-  ~BarrierMesh();
+  ~BarrierMesh() = default;
   BarrierMesh(const BarrierMesh&) = delete;
   BarrierMesh& operator=(const BarrierMesh&) = delete;
   BarrierMesh(BarrierMesh&&) = delete;
@@ -104,8 +105,9 @@ class BarrierMesh {
   double margin_ = 0.0;
   double lean_ = 0.0;
 
-  dTriMeshDataID data_ = nullptr;
-  dGeomID queryGeom_ = nullptr;  // in no space; carries our callbacks
+  // Each is destroyed after those that are built on it.
+  OwnTriMeshData data_;
+  OwnGeom queryGeom_;  // in no space; carries our callbacks
   dGeomID geom_ = nullptr;
   std::optional<LentGeom> lent_;
   bool solid_ = false;

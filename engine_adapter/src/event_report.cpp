@@ -44,12 +44,12 @@ void describe(const Impact& impact, const ImpactResponse& response, ImpactEvent&
 }  // namespace
 
 const Vehicle& Responder::Implementation::vehicleAt(const ContactPartner& with) const {
-  return *vehicles[static_cast<std::size_t>(with.vehicle.value)];
+  return *find(vehicles, with.vehicle.value);
 }
 
 const ResponseSettings& Responder::Implementation::settingsOf(const ContactPartner& with,
                                                               int wall) const {
-  const Barrier& barrier = *barriers[static_cast<std::size_t>(with.barrier.value)];
+  const Barrier& barrier = *find(barriers, with.barrier.value);
   return barrier.settings(barrier.settingsNumberOf(wall));
 }
 
@@ -62,7 +62,7 @@ ImpactEvent Responder::Implementation::eventWith(const Vehicle& vehicle, const C
   if (with.vehicle != VehicleId{}) {
     event.otherVehicle = vehicleAt(with).name;
   } else {
-    const Barrier& barrier = *barriers[static_cast<std::size_t>(with.barrier.value)];
+    const Barrier& barrier = *find(barriers, with.barrier.value);
     event.barrier = barrier.name();
     event.triangle = barrier.triangleOf(barrier.wallAt(wall, contact));
     event.material = barrier.materialOf(wall);

@@ -9,9 +9,12 @@ dGeomID asGeom(dSpaceID space) { return reinterpret_cast<dGeomID>(space); }
 
 }  // namespace
 
+// Built upon an object that owns nothing yet: if memory runs out, the destructor takes away what
+// there is.
 LentGeom::LentGeom(dSpaceID space, dTriMeshDataID data, const Eigen::Vector3d& place,
                    const Eigen::Vector3d& middle)
-    : data_(data), geom_(dCreateTriMesh(space, data, nullptr, nullptr, nullptr)) {
+    : LentGeom(data) {
+  geom_ = dCreateTriMesh(space, data, nullptr, nullptr, nullptr);
   dGeomSetPosition(geom_, place.x(), place.y(), place.z());
   if (space == nullptr) return;
   world_ = dWorldCreate();
@@ -26,10 +29,11 @@ LentGeom::LentGeom(dSpaceID space, dTriMeshDataID data, const Eigen::Vector3d& p
 }
 
 LentGeom::~LentGeom() {
-  if (exists()) dGeomDestroy(geom_);
-  if (body_ == nullptr) return;
-  if (const dGeomID watcher = dBodyGetFirstGeom(body_)) dGeomDestroy(watcher);
-  dWorldDestroy(world_);
+  if (geom_ != nullptr && exists()) dGeomDestroy(geom_);
+  if (body_ != nullptr) {
+    if (const dGeomID watcher = dBodyGetFirstGeom(body_)) dGeomDestroy(watcher);
+  }
+  if (world_ != nullptr) dWorldDestroy(world_);
 }
 
 bool LentGeom::wentWithSpace() const {

@@ -37,10 +37,12 @@ class LentGeom {
   [[nodiscard]] bool exists() const;
 
  private:
+  explicit LentGeom(dTriMeshDataID data) : data_(data) {}
+
   [[nodiscard]] bool mayBeIn(dSpaceID space) const;
 
   dTriMeshDataID data_;
-  dGeomID geom_;
+  dGeomID geom_ = nullptr;
   dWorldID world_ = nullptr;  // for the body, and never stepped
   dBodyID body_ = nullptr;
 };

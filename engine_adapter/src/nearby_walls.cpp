@@ -52,7 +52,7 @@ void NearbyWalls::list(const Envelope& vehicle,
   surfaces_.clear();
   owners_.clear();
   for (const std::unique_ptr<Barrier>& barrier : barriers) {
-    if (barrier == nullptr || !barrier->mayComeWithin(centre_, radius)) continue;
+    if (!barrier->mayComeWithin(centre_, radius)) continue;
     if (barrier->mesh() == nullptr) {
       faces_.push_back({.barrier = barrier.get(),
                         .centre = centre_,
@@ -164,6 +164,7 @@ void NearbyWalls::collect(const Envelope& vehicle,
     segments_.back().id = static_cast<int>(i);
   }
   if (!wasThere_ && !question.evenIfNoneIsThere) segments_.clear();
+  crowds_.reduce(segments_);
 }
 
 }  // namespace bumper

@@ -10,6 +10,7 @@
 
 #include "barrier.h"
 #include "bumper/response/collision_step.h"
+#include "crowded_walls.h"
 #include "envelope.h"
 #include "vehicle_bodies.h"
 #include "wall_face.h"
@@ -112,6 +113,7 @@ class NearbyWalls {
   std::vector<Owner> owners_;       // of the surfaces
   std::size_t listedSurfaces_ = 0;  // the first of both; what comes after is entered
   std::vector<Segment> segments_;
+  CrowdedWalls crowds_;
   // Walls were found in the last step: cutting all faces at once is then fastest.
   bool wasThere_ = false;
 };

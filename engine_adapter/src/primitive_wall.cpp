@@ -10,12 +10,22 @@
 
 namespace bumper {
 
+namespace {
+
+void requireFinite(bool isFinite, const char* what) {
+  if (isFinite) return;
+  throw Error(std::string("addBarrier: the ") + what + " has a number that is not finite");
+}
+
+}  // namespace
+
 PrimitiveWall::PrimitiveWall(dGeomID geom, double maxNormalUp) {
   if (dGeomGetClass(geom) == dPlaneClass) {
     dVector4 plane;
     dGeomPlaneGetParams(geom, plane);
     direction_ = toVector(plane);
     place_ = plane[3] * direction_;
+    requireFinite(direction_.allFinite() && place_.allFinite(), "plane");
     if (std::abs(direction_.z()) > maxNormalUp) {
       throw Error("addBarrier: the plane is flatter than WallSelection::maxNormalUp allows");
     }
@@ -30,6 +40,9 @@ PrimitiveWall::PrimitiveWall(dGeomID geom, double maxNormalUp) {
   direction_ = toMatrix(dGeomGetRotation(geom)).col(2);
   if (direction_.z() < 0.0) direction_ = -direction_;
   radius_ = radius;
+  requireFinite(place_.allFinite() && direction_.allFinite() && std::isfinite(radius) &&
+                    std::isfinite(length),
+                "cylinder");
   if (direction_.head<2>().norm() > maxNormalUp) {
     throw Error("addBarrier: the cylinder leans further than WallSelection::maxNormalUp allows");
   }

@@ -15,6 +15,13 @@
 
 namespace bumper {
 
+/// So that a step need not allocate.
+inline void keepRoom(VehicleMemory& memory) {
+  memory.passable.reserve(4);
+  memory.contacts.reserve(4);
+  memory.hits.reserve(8);
+}
+
 /// A registered vehicle: its data, its surroundings, and its state kept from step to step.
 struct Vehicle {
   Vehicle(VehicleId id, const VehicleParameters& itsParameters, const Band& band, double tiltLimit,
@@ -40,9 +47,7 @@ struct Vehicle {
     traveller.radius = envelope.outline().radius() + away.norm();
     for (VehicleMemory* each : {&memory, &memoryBefore}) {
       each->vehicle = id;
-      each->passable.reserve(4);
-      each->contacts.reserve(4);
-      each->hits.reserve(8);
+      keepRoom(*each);
     }
   }
   ~Vehicle() = default;

@@ -1,12 +1,15 @@
 #include "bumper/engine_adapter/responder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <sstream>
 
 #include "bumper/response/error.h"
 #include "responder_implementation.h"
+#include "room.h"
 #include "vehicle_warnings.h"
 
 namespace bumper {
@@ -19,11 +22,14 @@ constexpr double inertiaTolerance = 0.05;
 
 template <typename Thing>
 Thing& registered(const std::vector<std::unique_ptr<Thing>>& things, int id, const char* kind) {
-  if (id < 0 || static_cast<std::size_t>(id) >= things.size() ||
-      things[static_cast<std::size_t>(id)] == nullptr) {
-    throw Error("this responder has no " + std::string(kind) + " with id " + std::to_string(id));
-  }
-  return *things[static_cast<std::size_t>(id)];
+  if (Thing* thing = find(things, id)) return *thing;
+  throw Error("this responder has no " + std::string(kind) + " with id " + std::to_string(id));
+}
+
+template <typename Thing>
+void erase(std::vector<std::unique_ptr<Thing>>& things, const Thing& thing) {
+  things.erase(std::find_if(things.begin(), things.end(),
+                            [&](const auto& each) { return each.get() == &thing; }));
 }
 
 void requireClose(double actual, double given, double tolerance, const char* what,
@@ -56,17 +62,16 @@ void validateOfPair(const ResponseSettings& settings, const char* what) {
 // Of a barrier where more than this part of what may be a wall was dropped on a guess.
 constexpr double muchOnGuess = 0.1;
 
-void warnOfGuesses(Warnings& warnings, const Barrier& barrier) {
+std::optional<std::string> warningOf(const Barrier& barrier) {
   const WallReport& report = barrier.report();
   if (static_cast<double>(report.droppedOnGuess) <=
       muchOnGuess * static_cast<double>(report.walls)) {
-    return;
+    return std::nullopt;
   }
-  warnings.add(&barrier,
-               "barrier '" + barrier.name() + "': " + std::to_string(report.droppedOnGuess) +
-                   " triangles steeper than 45° are taken for hillsides, beside " +
-                   std::to_string(report.walls) +
-                   " walls: if vehicles are to hit them, raise WallSelection::maxNormalUp to 0.7");
+  return "barrier '" + barrier.name() + "': " + std::to_string(report.droppedOnGuess) +
+         " triangles steeper than 45° are taken for hillsides, beside " +
+         std::to_string(report.walls) +
+         " walls: if vehicles are to hit them, raise WallSelection::maxNormalUp to 0.7";
 }
 
 template <typename... Source>
@@ -77,7 +82,17 @@ std::unique_ptr<Barrier> makeBarrier(const Responder::Implementation& responder,
                                    responder.options.response);
 }
 
-// Builds the barrier whole before anything refers to it.
+// After barriers have changed.
+void lookAround(Responder::Implementation& responder) noexcept {
+  responder.longestPenetrationTime = 0.0;
+  for (const std::unique_ptr<Barrier>& barrier : responder.barriers) {
+    responder.longestPenetrationTime =
+        std::max(responder.longestPenetrationTime, barrier->longestPenetrationTime());
+  }
+  responder.forgetSurroundings();
+}
+
+// Everything that may fail comes first: a barrier is added as a whole or not at all.
 template <typename... Source>
 BarrierId add(Responder::Implementation& responder, const BarrierOptions& options, std::string name,
               const Source&... source) {
@@ -85,33 +100,39 @@ BarrierId add(Responder::Implementation& responder, const BarrierOptions& option
   for (const auto& [material, settings] : options.materials) {
     validateSettings(settings, responder.options);
   }
-  const BarrierId id{static_cast<int>(responder.barriers.size())};
+  const BarrierId id{responder.nextBarrier};
   if (name.empty()) name = "barrier " + std::to_string(id.value);
   auto barrier = makeBarrier(responder, id, options, std::move(name), source...);
-  responder.longestPenetrationTime =
-      std::max(responder.longestPenetrationTime, barrier->longestPenetrationTime());
+  std::optional<std::string> warning = warningOf(*barrier);
+  makeRoom(responder.barriers, 1);
+  responder.warnings.makeRoom(1);
   responder.barrierOfGeom.insert_or_assign(barrier->geom(), barrier.get());
-  warnOfGuesses(responder.warnings, *barrier);
+
+  if (warning) responder.warnings.add(barrier.get(), std::move(*warning));
   responder.barriers.push_back(std::move(barrier));
-  responder.forgetSurroundings();
+  ++responder.nextBarrier;
+  lookAround(responder);
   return id;
 }
 
 // A geom at the same address may be another barrier by now.
-void forgetGeom(Responder::Implementation& responder, const Barrier& barrier) {
+void forgetGeom(Responder::Implementation& responder, const Barrier& barrier) noexcept {
   const auto entry = responder.barrierOfGeom.find(barrier.geom());
   if (entry != responder.barrierOfGeom.end() && entry->second == &barrier) {
     responder.barrierOfGeom.erase(entry);
   }
 }
 
-// The same barrier with other walls.
+// The same barrier with other walls; likewise.
 template <typename... Source>
 void update(Responder::Implementation& responder, const Barrier& old, const BarrierOptions& options,
             const Source&... source) {
   std::unique_ptr<Barrier> fresh = makeBarrier(responder, old.id(), options, old.name(), source...);
+  std::optional<std::string> warning = warningOf(*fresh);
+  responder.warnings.makeRoom(1);
+  responder.barrierOfGeom.insert_or_assign(fresh->geom(), fresh.get());
+
   for (const std::unique_ptr<Vehicle>& vehicle : responder.vehicles) {
-    if (vehicle == nullptr) continue;
     for (VehicleMemory* memory : {&vehicle->memory, &vehicle->memoryBefore}) {
       for (SustainedContact& contact : memory->contacts) {
         if (contact.with.barrier == old.id())
@@ -124,10 +145,11 @@ void update(Responder::Implementation& responder, const Barrier& old, const Barr
   }
   forgetGeom(responder, old);
   responder.warnings.drop(&old);
-  warnOfGuesses(responder.warnings, *fresh);
-  responder.barrierOfGeom.insert_or_assign(fresh->geom(), fresh.get());
-  responder.barriers[static_cast<std::size_t>(old.id().value)] = std::move(fresh);
-  responder.forgetSurroundings();
+  if (warning) responder.warnings.add(fresh.get(), std::move(*warning));
+  const auto place = std::find_if(responder.barriers.begin(), responder.barriers.end(),
+                                  [&](const auto& each) { return each.get() == &old; });
+  *place = std::move(fresh);
+  lookAround(responder);
 }
 
 void requireStanding(dGeomID geom, const char* call) {
@@ -265,27 +287,38 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
     requireClose(state.yawInertia, parameters.yawInertia, inertiaTolerance, "yaw inertia", "kg m²");
   }
 
-  const int id = static_cast<int>(self.vehicles.size());
+  // Everything that may fail comes first.
+  const int id = self.nextVehicle;
   const std::string name =
       options.name.empty() ? "vehicle " + std::to_string(id) : std::string(options.name);
   auto vehicle = std::make_unique<Vehicle>(VehicleId{id}, parameters, band, options.tiltLimit, name,
                                            vehicleBodies, options.mover);
-  self.warnings.drop(nullptr);
-  if (std::optional<std::string> text = warningOf(self.world)) self.warnings.add(nullptr, *text);
-  for (std::string& text : warningsOf(vehicleBodies, parameters, band, name)) {
-    self.warnings.add(vehicle.get(), std::move(text));
+  std::vector<std::string> warnings = warningsOf(vehicleBodies, parameters, band, name);
+  std::optional<std::string> warningOfWorld = warningOf(self.world);
+  self.warnings.makeRoom(warnings.size() + 1);
+  makeRoom(self.vehicles, 1);
+  // So that step() need not allocate when the first vehicle hits the first wall.
+  const std::size_t count = self.vehicles.size() + 1;
+  self.events.reserve(CollisionStep::maxImpacts + 16 * count);
+  self.active.resize(std::max(self.active.size(), count));
+  self.travellers.reserve(count);
+  try {
+    for (dBodyID body : bodies) self.vehicleOfBody.emplace(body, vehicle.get());
+    self.traffic.add(vehicle->traveller);
+  } catch (...) {
+    for (dBodyID body : bodies) self.vehicleOfBody.erase(body);
+    throw;
   }
-  for (dBodyID body : bodies) {
-    if (options.finiteRotation) dBodySetFiniteRotationMode(body, 1);
-    self.vehicleOfBody.emplace(body, vehicle.get());
+
+  self.warnings.drop(nullptr);
+  if (warningOfWorld) self.warnings.add(nullptr, std::move(*warningOfWorld));
+  for (std::string& text : warnings) self.warnings.add(vehicle.get(), std::move(text));
+  if (options.finiteRotation) {
+    for (dBodyID body : bodies) dBodySetFiniteRotationMode(body, 1);
   }
   self.vehicles.push_back(std::move(vehicle));
+  ++self.nextVehicle;
   if (!self.clock) self.clock.emplace(self.world);
-  // So that step() need not allocate when the first vehicle hits the first wall.
-  self.events.reserve(CollisionStep::maxImpacts + 16 * self.vehicles.size());
-  self.active.resize(self.vehicles.size());
-  self.travellers.reserve(self.vehicles.size());
-  self.traffic.add(self.vehicles.back()->traveller);
   return {id};
 }
 
@@ -301,7 +334,6 @@ void Responder::setPair(VehicleId a, VehicleId b, const PairOptions& options) {
 void Responder::removeBarrier(BarrierId barrier) {
   const Barrier& removed = registered(implementation_->barriers, barrier.value, "barrier");
   for (const std::unique_ptr<Vehicle>& vehicle : implementation_->vehicles) {
-    if (vehicle == nullptr) continue;
     for (VehicleMemory* memory : {&vehicle->memory, &vehicle->memoryBefore}) {
       std::erase_if(memory->passable,
                     [&](const PassableWall& each) { return each.barrier == barrier; });
@@ -312,21 +344,21 @@ void Responder::removeBarrier(BarrierId barrier) {
       if (load.with.barrier == barrier) load.with = {};
     }
   }
-  implementation_->forgetSurroundings();
   forgetGeom(*implementation_, removed);
   implementation_->warnings.drop(&removed);
-  implementation_->barriers[static_cast<std::size_t>(barrier.value)].reset();
+  erase(implementation_->barriers, removed);
+  lookAround(*implementation_);
 }
 
 void Responder::removeVehicle(VehicleId vehicle) {
-  const Vehicle& removed = registered(implementation_->vehicles, vehicle.value, "vehicle");
-  for (dBodyID body : removed.bodies.all()) implementation_->vehicleOfBody.erase(body);
-  implementation_->warnings.drop(&removed);
-  std::erase_if(implementation_->pairOptions, [&](const auto& rule) {
+  Implementation& self = *implementation_;
+  Vehicle& removed = registered(self.vehicles, vehicle.value, "vehicle");
+  for (dBodyID body : removed.bodies.all()) self.vehicleOfBody.erase(body);
+  self.warnings.drop(&removed);
+  std::erase_if(self.pairOptions, [&](const auto& rule) {
     return rule.first.first == vehicle.value || rule.first.second == vehicle.value;
   });
-  for (const std::unique_ptr<Vehicle>& other : implementation_->vehicles) {
-    if (other == nullptr) continue;
+  for (const std::unique_ptr<Vehicle>& other : self.vehicles) {
     for (VehicleMemory* memory : {&other->memory, &other->memoryBefore}) {
       std::erase_if(memory->hits, [&](const VehicleHit& each) { return each.vehicle == vehicle; });
       std::erase_if(memory->contacts,
@@ -336,11 +368,13 @@ void Responder::removeVehicle(VehicleId vehicle) {
       if (load.with.vehicle == vehicle) load.with = {};
     }
   }
-  std::unique_ptr<Vehicle>& place =
-      implementation_->vehicles[static_cast<std::size_t>(vehicle.value)];
-  place->guards.release();
-  implementation_->traffic.remove(place->traveller);
-  place.reset();
+  removed.guards.release();
+  self.traffic.remove(removed.traveller);
+  erase(self.vehicles, removed);
+  if (self.vehicles.empty()) {
+    self.warnings.drop(nullptr);
+    self.clock.reset();
+  }
 }
 
 Eigen::Vector3d Responder::position(VehicleId vehicle) const {
@@ -373,7 +407,6 @@ SavedState Responder::save() const {
   SavedState saved;
   saved.time = implementation_->time;
   for (const std::unique_ptr<Vehicle>& vehicle : implementation_->vehicles) {
-    if (vehicle == nullptr) continue;
     saved.vehicles.push_back(vehicle->memory);
     const std::span<const GuardLoad> loads = vehicle->guards.loads();
     saved.vehicles.back().guards.assign(loads.begin(), loads.end());
@@ -383,14 +416,22 @@ SavedState Responder::save() const {
 
 void Responder::restore(const SavedState& state) {
   Implementation& self = *implementation_;
-  const auto present = std::count_if(self.vehicles.begin(), self.vehicles.end(),
-                                     [](const auto& vehicle) { return vehicle != nullptr; });
-  if (static_cast<std::size_t>(present) != state.vehicles.size()) {
+  if (self.vehicles.size() != state.vehicles.size()) {
     throw Error("restore: the saved state is of " + std::to_string(state.vehicles.size()) +
-                " vehicles, but " + std::to_string(present) + " are registered");
+                " vehicles, but " + std::to_string(self.vehicles.size()) + " are registered");
   }
+  const auto requireWall = [&](BarrierId id, int wall) {
+    const Barrier& barrier = registered(self.barriers, id.value, "barrier");
+    if (wall >= 0 && wall < barrier.wallCount()) return;
+    throw Error("restore: barrier '" + barrier.name() + "' has no wall number " +
+                std::to_string(wall));
+  };
+  std::set<int> ids;
   for (const VehicleMemory& memory : state.vehicles) {
-    registered(self.vehicles, memory.vehicle.value, "vehicle");
+    const Vehicle& vehicle = registered(self.vehicles, memory.vehicle.value, "vehicle");
+    if (!ids.insert(memory.vehicle.value).second) {
+      throw Error("restore: the saved state has vehicle '" + vehicle.name + "' more than once");
+    }
     for (const PassableWall& wall : memory.passable) {
       const Barrier& barrier = registered(self.barriers, wall.barrier.value, "barrier");
       if (wall.settings < 0 || wall.settings >= barrier.settingsCount()) {
@@ -404,22 +445,33 @@ void Responder::restore(const SavedState& state) {
     for (const SustainedContact& contact : memory.contacts) {
       if (contact.with.vehicle != VehicleId{}) {
         registered(self.vehicles, contact.with.vehicle.value, "vehicle");
-        continue;
+      } else {
+        requireWall(contact.with.barrier, contact.wall);
       }
-      const Barrier& barrier = registered(self.barriers, contact.with.barrier.value, "barrier");
-      if (contact.wall < 0 || contact.wall >= barrier.wallCount()) {
-        throw Error("restore: barrier '" + barrier.name() + "' has no wall number " +
-                    std::to_string(contact.wall));
+    }
+    for (const GuardLoad& load : memory.guards) {
+      if (load.with.vehicle != VehicleId{}) {
+        registered(self.vehicles, load.with.vehicle.value, "vehicle");
+      } else if (load.with.barrier != BarrierId{}) {
+        requireWall(load.with.barrier, load.wall);
       }
     }
   }
-  for (const VehicleMemory& memory : state.vehicles) {
-    Vehicle& vehicle = *self.vehicles[static_cast<std::size_t>(memory.vehicle.value)];
-    vehicle.memory = memory;
-    vehicle.memory.guards.clear();
-    vehicle.memoryBefore = vehicle.memory;
+  // Copies first, which may fail; a step takes them as it takes those of a new vehicle.
+  std::vector<std::array<VehicleMemory, 2>> copies(state.vehicles.size());
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    for (VehicleMemory& copy : copies[i]) {
+      copy = state.vehicles[i];
+      copy.guards.clear();
+      keepRoom(copy);
+    }
+  }
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    Vehicle& vehicle = *find(self.vehicles, state.vehicles[i].vehicle.value);
+    vehicle.memory = std::move(copies[i][0]);
+    vehicle.memoryBefore = std::move(copies[i][1]);
     vehicle.guards.release();
-    vehicle.guards.setLoads(memory.guards);
+    vehicle.guards.setLoads(state.vehicles[i].guards);
   }
   if (self.clock) self.clock->stop();
   dJointGroupEmpty(self.guardJoints.get());

@@ -2,6 +2,7 @@
 
 #include <ode/ode.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/response/collision_step.h"
 #include "bumper/response/island_step.h"
+#include "ode_handles.h"
 #include "registered_vehicle.h"
 #include "traffic.h"
 #include "warnings.h"
@@ -21,9 +23,17 @@
 
 namespace bumper {
 
-struct JointGroupDeleter {
-  void operator()(dJointGroupID group) const { dJointGroupDestroy(group); }
-};
+inline int idOf(const Barrier& barrier) { return barrier.id().value; }
+inline int idOf(const Vehicle& vehicle) { return vehicle.memory.vehicle.value; }
+
+/// The one with that id among things in the order of their ids; null if there is none.
+template <typename Thing>
+Thing* find(const std::vector<std::unique_ptr<Thing>>& things, int id) {
+  const auto found =
+      std::lower_bound(things.begin(), things.end(), id,
+                       [](const auto& each, int wanted) { return idOf(*each) < wanted; });
+  return found != things.end() && idOf(**found) == id ? found->get() : nullptr;
+}
 
 /// Two vehicles that may touch in a step, in the order of their island.
 struct Meeting {
@@ -40,9 +50,11 @@ struct Responder::Implementation {
   dWorldID world = nullptr;
   ResponderOptions options;
 
-  // Removed ones leave an empty place, so that an id never means another thing later.
+  // In the order of their ids. These are given once, so that none ever means another thing.
   std::vector<std::unique_ptr<Barrier>> barriers;
   std::vector<std::unique_ptr<Vehicle>> vehicles;
+  int nextBarrier = 0;
+  int nextVehicle = 0;
   std::unordered_map<dGeomID, const Barrier*> barrierOfGeom;
   std::unordered_map<dBodyID, const Vehicle*> vehicleOfBody;
   Warnings warnings;
@@ -52,10 +64,10 @@ struct Responder::Implementation {
   unsigned issues = step_issue::none;
   std::vector<ImpactEvent> events;
 
-  double longestPenetrationTime = 0.0;  // of all barriers there ever were, s
+  double longestPenetrationTime = 0.0;  // of all barriers, s
 
-  std::optional<WorldClock> clock;  // from the first vehicle on
-  std::unique_ptr<dxJointGroup, JointGroupDeleter> guardJoints{dJointGroupCreate(0)};
+  std::optional<WorldClock> clock;  // as long as there are vehicles
+  OwnJointGroup guardJoints{dJointGroupCreate(0)};
   bool hasGuards = false;  // the group has joints
 
   std::map<std::pair<int, int>, PairOptions> pairOptions;  // by the lower id and the higher
@@ -92,9 +104,9 @@ struct Responder::Implementation {
   void collectWalls(Vehicle& vehicle, double h);
   void solve(Vehicle& vehicle, double h);
   void applyOutcome(Vehicle& vehicle, const StepOutcome& outcome, double h);
-  /// `contactsWithin` gives the walls' contacts within a distance.
-  template <typename ContactsWithin>
-  void addGuards(Vehicle& vehicle, const ContactsWithin& contactsWithin, double h);
+  /// Within this distance, m, a wall's contacts are guarded in a step.
+  [[nodiscard]] static double guardedDistance(const Vehicle& vehicle, double h);
+  void addGuards(Vehicle& vehicle, std::span<const SpeculativeContact> contacts, double h);
 
   /// Null: they do not respond to each other.
   [[nodiscard]] const ResponseSettings* settingsOfPair(const Vehicle& a, const Vehicle& b) const;

@@ -55,7 +55,6 @@ std::span<const ImpactEvent> Responder::step(double h) {
   const bool hasPairs = self.hasPairs();
   self.activeCount = 0;
   for (const std::unique_ptr<Vehicle>& vehicle : self.vehicles) {
-    if (vehicle == nullptr) continue;
     vehicle->isFar = vehicle->mover != Mover::world || vehicle->freeSpace.holds(h);
     vehicle->isAlone = !hasPairs || Traffic::isApart(vehicle->traveller, self.time, h);
     vehicle->isActive = !vehicle->isFar || !vehicle->isAlone;
@@ -178,12 +177,10 @@ void Responder::Implementation::solve(Vehicle& vehicle, double h) {
       collision.resolve(vehicle.parametersNow(), vehicle.reading.motion, walls, h);
   applyOutcome(vehicle, outcome, h);
   if (vehicle.reading.isHeld && options.guardContacts) {
-    addGuards(
-        vehicle,
-        [&](double distance) {
-          return collision.speculativeContacts(vehicle.reading.motion, outcome.after, distance, h);
-        },
-        h);
+    addGuards(vehicle,
+              collision.speculativeContacts(vehicle.reading.motion, outcome.after,
+                                            guardedDistance(vehicle, h), h),
+              h);
   }
 }
 
@@ -223,16 +220,19 @@ void Responder::Implementation::applyOutcome(Vehicle& vehicle, const StepOutcome
   }
 }
 
-template <typename ContactsWithin>
-void Responder::Implementation::addGuards(Vehicle& vehicle, const ContactsWithin& contactsWithin,
-                                          double h) {
+// A wall near at the step's end was near at its start, so that those further away do not matter.
+double Responder::Implementation::guardedDistance(const Vehicle& vehicle, double h) {
   const PlanarMotion& motion = vehicle.reading.motion;
-  // A wall near at the step's end was near at its start, so that those further away do not matter.
   const double speed = motion.velocity.norm();
   const double way = h * (speed + std::abs(motion.yawRate) * vehicle.envelope.outline().radius());
   const double near = guardDistance(speed, h);
-  const double distance = std::max(near - way, 0.5 * near);
-  for (const SpeculativeContact& contact : contactsWithin(distance)) {
+  return std::max(near - way, 0.5 * near);
+}
+
+void Responder::Implementation::addGuards(Vehicle& vehicle,
+                                          std::span<const SpeculativeContact> contacts, double h) {
+  const PlanarMotion& motion = vehicle.reading.motion;
+  for (const SpeculativeContact& contact : contacts) {
     const BarrierWall hit = vehicle.nearby.at(contact.wall);
     const ResponseSettings& settings = vehicle.nearby.settingsOf(contact.surface);
     const bool slides =
@@ -269,7 +269,6 @@ void Responder::Implementation::deliver(Vehicle& vehicle, double h) {
 
 void Responder::Implementation::forgetSurroundings() {
   for (const std::unique_ptr<Vehicle>& vehicle : vehicles) {
-    if (vehicle == nullptr) continue;
     vehicle->freeSpace.forget();
     vehicle->nearby.forget();
   }

@@ -244,12 +244,10 @@ void Responder::Implementation::solveIsland(std::span<Vehicle* const> members, d
     if (!anyHeld) continue;
     vehicle.reading.isHeld = true;
     if (vehicle.nearby.all().segments.empty()) continue;
-    addGuards(
-        vehicle,
-        [&](double distance) {
-          return islands.speculativeContacts(i, vehicle.reading.motion, outcome.after, distance, h);
-        },
-        h);
+    addGuards(vehicle,
+              islands.speculativeContacts(i, vehicle.reading.motion, outcome.after,
+                                          guardedDistance(vehicle, h), h),
+              h);
   }
   if (!anyHeld) return;
   for (const Meeting* meeting : islandMeetings) {

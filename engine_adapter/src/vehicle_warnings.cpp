@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <sstream>
 
 #include "bumper/response/contact_point.h"
 #include "ode_vectors.h"
@@ -131,10 +130,14 @@ std::optional<std::string> warningOf(dWorldID world) {
   dVector3 gravity;
   dWorldGetGravity(world, gravity);
   if (std::hypot(gravity[0], gravity[1]) <= -modelledSlope * gravity[2]) return std::nullopt;
-  std::ostringstream text;
-  text << "the world's gravity is (" << gravity[0] << ", " << gravity[1] << ", " << gravity[2]
-       << ") m/s², not along -z: for Bumper up is z, in the world and in every vehicle";
-  return text.str();
+  // Not a stream, which would swallow that memory has run out.
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "the world's gravity is (%g, %g, %g) m/s², not along -z: for Bumper up is z, in the "
+      "world and in every vehicle",
+      gravity[0], gravity[1], gravity[2]);
+  return text;
 }
 
 }  // namespace bumper

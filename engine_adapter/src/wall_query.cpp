@@ -27,12 +27,10 @@ void placeBox(dGeomID box, const Envelope& vehicle, const VehicleState& state,
 
 WallQuery::WallQuery() : box_(dCreateBox(nullptr, 1.0, 1.0, 1.0)) { near_.reserve(256); }
 
-WallQuery::~WallQuery() { dGeomDestroy(box_); }
-
 const std::vector<int>& WallQuery::list(const BarrierMesh& mesh, const Envelope& vehicle,
                                         const VehicleState& state, const Margins& margins) {
-  placeBox(box_, vehicle, state, margins, mesh.margin());
-  mesh.list(box_, near_);
+  placeBox(box_.get(), vehicle, state, margins, mesh.margin());
+  mesh.list(box_.get(), near_);
   std::sort(near_.begin(), near_.end());
   return near_;
 }

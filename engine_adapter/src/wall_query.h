@@ -6,6 +6,7 @@
 
 #include "barrier.h"
 #include "envelope.h"
+#include "ode_handles.h"
 #include "vehicle_bodies.h"
 
 namespace bumper {
@@ -14,11 +15,6 @@ namespace bumper {
 class WallQuery {
  public:
   WallQuery();
-  ~WallQuery();
-  WallQuery(const WallQuery&) = delete;
-  WallQuery& operator=(const WallQuery&) = delete;
-  WallQuery(WallQuery&&) = delete;
-  WallQuery& operator=(WallQuery&&) = delete;
 
   /// How far a box around the envelope goes beyond it on its sides, m.
   struct Margins {
@@ -34,7 +30,7 @@ class WallQuery {
                                const VehicleState& state, const Margins& margins);
 
  private:
-  dGeomID box_;
+  OwnGeom box_;
   std::vector<int> near_;
 };
 

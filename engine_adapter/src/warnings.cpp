@@ -1,9 +1,15 @@
 #include "warnings.h"
 
-#include <cstddef>
 #include <utility>
 
+#include "room.h"
+
 namespace bumper {
+
+void Warnings::makeRoom(std::size_t more) {
+  bumper::makeRoom(owners_, more);
+  bumper::makeRoom(texts_, more);
+}
 
 void Warnings::add(const void* owner, std::string text) {
   for (std::size_t i = 0; i < texts_.size(); ++i) {
@@ -13,7 +19,7 @@ void Warnings::add(const void* owner, std::string text) {
   texts_.push_back(std::move(text));
 }
 
-void Warnings::drop(const void* owner) {
+void Warnings::drop(const void* owner) noexcept {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < texts_.size(); ++i) {
     if (owners_[i] == owner) continue;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,8 +11,10 @@ namespace bumper {
 /// owner is null for those about the world.
 class Warnings {
  public:
+  /// Makes room for so many more; add() then does not throw.
+  void makeRoom(std::size_t more);
   void add(const void* owner, std::string text);
-  void drop(const void* owner);
+  void drop(const void* owner) noexcept;
   /// In the order in which they came.
   [[nodiscard]] std::span<const std::string> all() const { return texts_; }
 

@@ -15,8 +15,7 @@ namespace {
 
 LoadOptions loadOptions(const RecordedRunOptions& options, const SceneReference& reference) {
   return {.up = upAxis(options.up.empty() ? reference.up : options.up),
-          .scale = options.scale > 0.0 ? options.scale : reference.scale,
-          .isolate = true};
+          .scale = options.scale > 0.0 ? options.scale : reference.scale};
 }
 
 Scene sceneOf(const RecordedRunOptions& options, const SceneReference& reference) {

@@ -18,7 +18,7 @@ namespace {
 
 std::shared_ptr<const Scene> load(const std::filesystem::path& file, const std::string& up,
                                   double turn) {
-  Scene mesh = loadScene(file, "--vehicle-mesh-up", {.up = upAxis(up), .isolate = true});
+  Scene mesh = loadScene(file, "--vehicle-mesh-up", {.up = upAxis(up)});
   const Eigen::AngleAxisd turned(turn * std::numbers::pi / 180.0, Eigen::Vector3d::UnitZ());
   for (Eigen::Vector3d& vertex : mesh.vertices) vertex = turned * vertex;
   return std::make_shared<const Scene>(std::move(mesh));

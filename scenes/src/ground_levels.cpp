@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "corners.h"
 #include "pieces.h"
@@ -27,6 +28,14 @@ constexpr double narrowest = 1.0;
 
 /// Ranges of height of one cell that are no further apart than this, m, become one.
 constexpr float levelGap = 0.5F;
+
+/// A cell has so many ranges at most: storeys of a tower. What comes after joins the nearest.
+constexpr int mostLevels = 64;
+
+/// How many cells and levels are looked at before all is taken to be in reach: enough for any scene
+/// of walls no longer than 100 m.
+constexpr std::size_t leastVisits = std::size_t{1} << 22U;
+constexpr std::size_t visitsOfTriangle = 1024;
 
 std::vector<FlatTriangle> flatTriangles(const Scene& scene, double maxNormalUp) {
   std::vector<FlatTriangle> flat;
@@ -119,9 +128,20 @@ void GroundLevels::chooseCellSize(const std::vector<Eigen::Vector2d>& boxes, dou
 }
 
 void GroundLevels::add(std::size_t cell, float low, float high) {
+  int count = 0;
+  float least = std::numeric_limits<float>::infinity();
+  std::uint32_t nearest = noIndex;
   for (std::uint32_t i = first_[cell]; i != noIndex; i = levels_[i].next) {
-    Level& level = levels_[i];
-    if (low > level.high + levelGap || high < level.low - levelGap) continue;
+    const float gap = std::max(low - levels_[i].high, levels_[i].low - high);
+    ++visits_;
+    ++count;
+    if (nearest != noIndex && gap >= least) continue;
+    least = gap;
+    nearest = i;
+    if (gap <= levelGap) break;
+  }
+  if (least <= levelGap || count == mostLevels) {
+    Level& level = levels_[nearest];
     level.low = std::min(level.low, low);
     level.high = std::max(level.high, high);
     return;
@@ -131,6 +151,7 @@ void GroundLevels::add(std::size_t cell, float low, float high) {
 }
 
 GroundLevels::GroundLevels(const Scene& scene, double maxNormalUp, double distance) {
+  mostVisits_ = leastVisits + visitsOfTriangle * scene.triangles.size();
   flat_ = flatTriangles(scene, maxNormalUp);
   welded_ = weld(scene.vertices);
   findWide(scene, welded_, flat_);
@@ -163,7 +184,7 @@ GroundLevels::GroundLevels(const Scene& scene, double maxNormalUp, double distan
   }
 }
 
-GroundLevels::Place GroundLevels::placeOf(const Wall& wall, const GroundReach& reach) const {
+GroundLevels::Place GroundLevels::placeOf(const Wall& wall, const GroundReach& reach) {
   const Eigen::AlignedBox3d box = boxOf(wall.corners);
   const Eigen::Vector2d around = Eigen::Vector2d::Constant(reach.distance);
   Cells cells = cellsOf(box.min().head<2>() - around, box.max().head<2>() + around);
@@ -173,9 +194,11 @@ GroundLevels::Place GroundLevels::placeOf(const Wall& wall, const GroundReach& r
   bool anyAbove = false;
   for (std::int64_t y = cells.near; y <= cells.far; ++y) {
     for (std::int64_t x = cells.left; x <= cells.right; ++x) {
+      if (++visits_ > mostVisits_) return Place::within_reach;
       for (std::uint32_t i = first_[static_cast<std::size_t>(y * across_ + x)]; i != noIndex;
            i = levels_[i].next) {
         const Level& level = levels_[i];
+        ++visits_;
         if (static_cast<double>(level.high) + reach.above < box.min().z()) {
           anyBelow = true;
           // A wall is judged by its whole surface from above: the ground of one whose upper end is

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -27,9 +28,13 @@ class GroundLevels {
   /// The scene's vertices, as numbers that are equal where the points are.
   [[nodiscard]] const std::vector<std::uint32_t>& welded() const { return welded_; }
 
-  /// Where the wide ground nearby is that a wall is out of reach of.
+  /// Where the wide ground nearby is that a wall is out of reach of. `within_reach` in doubt, also
+  /// if the searches have taken too long.
   enum class Place { within_reach, above_ground, below_ground, between, without_ground };
-  [[nodiscard]] Place placeOf(const Wall& wall, const GroundReach& reach) const;
+  [[nodiscard]] Place placeOf(const Wall& wall, const GroundReach& reach);
+
+  /// How many cells and levels were looked at so far.
+  [[nodiscard]] std::size_t visits() const { return visits_; }
 
  private:
   /// A piece of ground in a cell, as the box around it.
@@ -56,6 +61,8 @@ class GroundLevels {
   std::vector<std::uint32_t> welded_;
   std::vector<std::uint32_t> first_;  // by cell: its first level
   std::vector<Level> levels_;
+  std::size_t visits_ = 0;
+  std::size_t mostVisits_ = 0;
 };
 
 }  // namespace bumper

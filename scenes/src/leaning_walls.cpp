@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "pieces.h"
@@ -19,6 +20,7 @@ namespace {
 /// A profile is followed so far to each side, m; what goes on beyond that is a hillside.
 constexpr double farthest = 3.0;
 constexpr int mostTriangles = 64;
+constexpr std::size_t mostLooks = 64;
 
 /// Parts that lean by less than 3° overhang nothing.
 constexpr double leastOverhang = 0.05;
@@ -121,9 +123,10 @@ class Profiler {
     const std::uint32_t a = own.at((edge + 1) % 3);
     const std::uint32_t b = own.at((edge + 2) % 3);
     Neighbour found;
-    int looks = mostTriangles;
-    table_.forWallsAt(a, [&](std::uint32_t other) {
-      if (--looks < 0 || found.triangle != noIndex || other == triangle) return;
+    const std::span<const std::uint32_t> walls = table_.wallsAt(a);
+    // Of the walls around the corner of a large fan no more than so many.
+    for (const std::uint32_t other : walls.first(std::min(walls.size(), mostLooks))) {
+      if (other == triangle) continue;
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t from = corners_[other].at((k + 1) % 3);
         const std::uint32_t to = corners_[other].at((k + 2) % 3);
@@ -132,7 +135,8 @@ class Profiler {
         if (corners_[other].at(k) == own.at(edge)) continue;
         found = {.triangle = other, .edge = k, .sameWay = from == a};
       }
-    });
+      if (found.triangle != noIndex) break;
+    }
     return found;
   }
 

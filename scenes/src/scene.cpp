@@ -4,6 +4,7 @@
 #include <regex>
 
 #include "bumper/response/error.h"
+#include "bumper/scenes/scene_budget.h"
 
 namespace bumper {
 
@@ -39,9 +40,37 @@ void validate(const Scene& scene) {
   for (std::size_t i = 0; i < scene.triangles.size(); ++i) validate(scene, i);
 }
 
+void validate(const Scene& scene, const SceneBudget& budget) {
+  const auto require = [&](std::size_t actual, std::size_t most, const char* what,
+                           const char* limit) {
+    if (actual <= most) return;
+    fail(scene, "has " + std::to_string(actual) + ' ' + what + ": SceneBudget::" + limit +
+                    " allows " + std::to_string(most));
+  };
+  require(scene.triangles.size(), budget.triangles, "triangles", "triangles");
+  require(scene.vertices.size() / 3, budget.triangles, "times three vertices", "triangles");
+  require(scene.meshes.size(), budget.nodes, "meshes", "nodes");
+  std::size_t names = 0;
+  for (const SceneMesh& mesh : scene.meshes) {
+    for (const std::string* name : {&mesh.name, &mesh.material}) {
+      require(name->size(), budget.nameLength, "bytes in one name", "nameLength");
+      names += name->size();
+    }
+  }
+  require(names, budget.names, "bytes of names", "names");
+}
+
 std::vector<bool> matchingMeshes(const Scene& scene, const std::string& pattern) {
   std::vector<bool> matching(scene.meshes.size(), false);
   if (pattern.empty()) return matching;
+  const std::size_t longest = SceneBudget{}.nameLength;
+  for (const SceneMesh& mesh : scene.meshes) {
+    const std::size_t length = std::max(mesh.name.size(), mesh.material.size());
+    if (length <= longest) continue;
+    fail(scene, "mesh \"" + mesh.name.substr(0, 40) + "…\" has a name or material of " +
+                    std::to_string(length) + " bytes: to be matched with a pattern it may have " +
+                    std::to_string(longest) + " (SceneBudget::nameLength)");
+  }
   try {
     const std::regex expression(pattern);
     std::transform(scene.meshes.begin(), scene.meshes.end(), matching.begin(),

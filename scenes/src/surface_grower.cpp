@@ -54,13 +54,13 @@ std::vector<std::uint32_t> SurfaceGrower::take(std::uint32_t seed) {
     for (const std::uint32_t corner : corners_[surface[i]]) {
       // Once is enough: the corner of a large fan would cost the square of its triangles.
       if (std::exchange(visitedFrom_[corner], seed) == seed) continue;
-      table_.forWallsAt(corner, [&](std::uint32_t other) {
+      for (const std::uint32_t other : table_.wallsAt(corner)) {
         if (taken_[other] || std::abs(facing(walls_[other]).dot(direction)) < minSmoothness) {
-          return;
+          continue;
         }
         taken_[other] = true;
         surface.push_back(other);
-      });
+      }
     }
   }
   return surface;

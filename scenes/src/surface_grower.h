@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "bumper/scenes/walls.h"
@@ -21,9 +22,8 @@ class WallsAtCorners {
 
   [[nodiscard]] std::size_t corners() const { return begins_.size() - 1; }
 
-  template <typename Visit>
-  void forWallsAt(std::uint32_t corner, Visit visit) const {
-    for (std::uint32_t i = begins_[corner]; i < begins_[corner + 1]; ++i) visit(walls_[i]);
+  [[nodiscard]] std::span<const std::uint32_t> wallsAt(std::uint32_t corner) const {
+    return {walls_.data() + begins_[corner], walls_.data() + begins_[corner + 1]};
   }
 
  private:

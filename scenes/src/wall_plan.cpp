@@ -13,6 +13,10 @@ namespace {
 
 constexpr double smallestCell = 8.0;  // m
 
+// A line lies in so many cells at most, on average: in a scene of large walls that cross one
+// another time and memory would else grow faster than their number.
+constexpr std::size_t mostCellsOfLine = 32;
+
 }  // namespace
 
 WallPlan::WallPlan(const std::vector<Wall>& walls) {
@@ -35,15 +39,44 @@ WallPlan::WallPlan(const std::vector<Wall>& walls) {
   sortIntoCells();
 }
 
-void WallPlan::sortIntoCells() {
-  lines_ = static_cast<std::size_t>(std::count_if(
-      nodes_.begin(), nodes_.end(), [](const Node& node) { return node.thickness >= 0.0F; }));
-  // About as many cells as lines, also where all of them lie in a row.
+// All that a line may lie in; more than those that it is put into.
+WallPlan::Cells WallPlan::cellsOf(std::size_t line) const {
+  const Node& node = nodes_[line];
+  const Node& next = nodes_[line + 1];
+  const auto around = static_cast<double>(node.thickness);
+  const Vector2 from(node.x, node.y);
+  const Vector2 to(next.x, next.y);
+  const Vector2 low = from.cwiseMin(to).array() - around;
+  const Vector2 high = from.cwiseMax(to).array() + around;
+  return {columnAt(low.x()), columnAt(high.x()), rowAt(low.y()), rowAt(high.y())};
+}
+
+// About as many cells as lines, also where all of them lie in a row; fewer if the lines are long.
+void WallPlan::chooseCellSize() {
   const auto count = static_cast<double>(lines_);
   cell_ = std::max(
       {smallestCell, std::sqrt(size_.x() * size_.y() / count), (size_.x() + size_.y()) / count});
-  columns_ = static_cast<std::size_t>(size_.x() / cell_) + 1;
-  rows_ = static_cast<std::size_t>(size_.y() / cell_) + 1;
+  for (;; cell_ *= 2.0) {
+    columns_ = static_cast<std::size_t>(size_.x() / cell_) + 1;
+    rows_ = static_cast<std::size_t>(size_.y() / cell_) + 1;
+    std::size_t left = mostCellsOfLine * lines_;
+    const auto fits = [&](std::size_t line) {
+      const std::size_t cells = cellsOf(line).count();
+      left -= std::min(left, cells);
+      return left > 0;
+    };
+    bool allFit = true;
+    for (std::size_t i = 0; i + 1 < nodes_.size() && allFit; ++i) {
+      allFit = nodes_[i].thickness < 0.0F || fits(i);
+    }
+    if (allFit || columns_ * rows_ == 1) return;
+  }
+}
+
+void WallPlan::sortIntoCells() {
+  lines_ = static_cast<std::size_t>(std::count_if(
+      nodes_.begin(), nodes_.end(), [](const Node& node) { return node.thickness >= 0.0F; }));
+  chooseCellSize();
   std::vector<std::vector<Run>> runsOf(columns_ * rows_);
   for (std::uint32_t i = 0; i + 1 < nodes_.size(); ++i) {
     const Node& node = nodes_[i];
@@ -51,10 +84,9 @@ void WallPlan::sortIntoCells() {
     const Vector2 from(node.x, node.y);
     const Vector2 to(nodes_[i + 1].x, nodes_[i + 1].y);
     const auto around = static_cast<double>(node.thickness);
-    const Vector2 low = from.cwiseMin(to).array() - around;
-    const Vector2 high = from.cwiseMax(to).array() + around;
-    for (std::size_t row = rowAt(low.y()); row <= rowAt(high.y()); ++row) {
-      for (std::size_t column = columnAt(low.x()); column <= columnAt(high.x()); ++column) {
+    const Cells cells = cellsOf(i);
+    for (std::size_t row = cells.near; row <= cells.far; ++row) {
+      for (std::size_t column = cells.left; column <= cells.right; ++column) {
         const Vector2 middle((static_cast<double>(column) + 0.5) * cell_,
                              (static_cast<double>(row) + 0.5) * cell_);
         // Outermost cells take what rounding has put beyond them; they lie along the edge.

@@ -150,7 +150,7 @@ void dropOutOfReach(const Scene& scene, const WallSelection& selection, Walls& w
   validate(selection);
   if (!selection.groundReach || walls.walls.empty()) return;
   const GroundReach& reach = *selection.groundReach;
-  const GroundLevels ground(scene, steepestGround(selection), reach.distance);
+  GroundLevels ground(scene, steepestGround(selection), reach.distance);
   if (ground.empty()) return;
   WallReport& report = walls.report;
   using Place = GroundLevels::Place;

@@ -126,6 +126,42 @@ TEST(BadInput, Barriers) {
   responder.addBarrier(mesh.geom);
 }
 
+TEST(BadInput, GeomsThatAreNotFinite) {
+  OdeWorld ode;
+  Responder responder(ode.world);
+  const dGeomID plane = dCreatePlane(nullptr, 1.0, 0.0, 0.0, nan);
+  expectError([&] { responder.addBarrier(plane); }, "plane has a number that is not finite");
+  const dGeomID cylinder = dCreateCylinder(nullptr, 0.5, 2.0);
+  dGeomSetPosition(cylinder, 0.0, nan, 0.0);
+  expectError([&] { responder.addBarrier(cylinder); }, "cylinder has a number that is not finite");
+  const dGeomID box = dCreateBox(nullptr, 1.0, 1.0, 1.0);
+  dGeomSetPosition(box, 0.0, 0.0, std::numeric_limits<double>::infinity());
+  expectError([&] { responder.addBarrier(box); }, "finite");
+  for (const dGeomID geom : {plane, cylinder, box}) dGeomDestroy(geom);
+}
+
+TEST(BadInput, SavedStatesThatFitNothing) {
+  OdeWorld ode;
+  Responder responder(ode.world);
+  const BarrierId barrier = responder.addBarrier(straightWall({0.0, 0.0}, {10.0, 0.0}, 1.0));
+  BoxCar one(ode.world);
+  BoxCar other(ode.world);
+  responder.addVehicle(one.body, one.parameters, {.name = "one"});
+  responder.addVehicle(other.body, other.parameters);
+  const SavedState fine = responder.save();
+  SavedState twice = fine;
+  twice.vehicles[1] = twice.vehicles[0];
+  twice.time = 7.0;
+  expectError([&] { responder.restore(twice); }, "'one' more than once");
+  SavedState pressed = fine;
+  pressed.vehicles[0].guards.push_back({.with = {.barrier = barrier}, .wall = 1000});
+  expectError([&] { responder.restore(pressed); }, "no wall number 1000");
+  pressed.vehicles[0].guards[0].with.barrier.value = 5;
+  expectError([&] { responder.restore(pressed); }, "no barrier with id 5");
+  EXPECT_EQ(responder.time(), 0.0);
+  responder.restore(fine);
+}
+
 TEST(BadInput, WhatNoForceMoves) {
   OdeWorld ode;
   Responder responder(ode.world);

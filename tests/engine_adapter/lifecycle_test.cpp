@@ -102,6 +102,24 @@ TEST(Lifecycle, AMovedSceneTakesTheOldOnesPlace) {
   EXPECT_THROW(responder.updateBarrier(gate, moved), Error);
 }
 
+// Long enough to be on the heap, and gone when the barrier is read anew.
+TEST(Lifecycle, ABarrierKeepsThePatternThatItWasGiven) {
+  OdeWorld ode;
+  Responder responder(ode.world);
+  Scene scene = wall();
+  scene.meshes.push_back({.name = "a picture of a tree that nobody hits", .material = ""});
+  scene.triangles.front().mesh = 1;
+  BarrierId barrier;
+  {
+    const std::string pattern = "a picture of a tree that .*";
+    BarrierOptions options;
+    options.walls.scenery = pattern;
+    barrier = responder.addBarrier(scene, options);
+  }
+  responder.updateBarrier(barrier, scene);
+  EXPECT_EQ(responder.report(barrier).droppedScenery, 1U);
+}
+
 TEST(Lifecycle, ARemovedVehicleIsOdesAgain) {
   OdeWorld ode;
   Responder responder(ode.world);

@@ -42,7 +42,7 @@ class RealTrack : public ::testing::Test {
     if (!std::filesystem::exists(aalborg())) {
       GTEST_SKIP() << aalborg() << " is not there: examples/fetch_tracks.sh road/aalborg gets it";
     }
-    scene = loadScene(aalborg(), {.up = UpAxis::y});
+    scene = loadTrustedScene(aalborg(), {.up = UpAxis::y});
   }
   Scene scene;
 };

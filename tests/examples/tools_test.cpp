@@ -115,7 +115,7 @@ TEST_F(Tools, TheSceneIsFoundBesideTheRecording) {
   const auto inFolder = folder_.path() / "scenes";
   std::filesystem::create_directory(inFolder);
   saveScene(testRail(), inFolder / "rail.obj");
-  const Scene rail = loadScene(inFolder / "rail.obj", {.up = UpAxis::z});
+  const Scene rail = loadTrustedScene(inFolder / "rail.obj", {.up = UpAxis::z});
   RunDescription described{.scene = referenceTo(rail)};
   described.scene.file = "scenes/rail.obj";
   described.scene.up = "z";

@@ -19,7 +19,7 @@ TEST(RealTrack, isDrawnAlikeByBothBackends) {
   if (builtBackends().size() < 2) GTEST_SKIP() << "bumper was built with one backend";
   if (!std::filesystem::exists(file))
     GTEST_SKIP() << file << " is missing: examples/fetch_tracks.sh puts it there";
-  const Scene track = loadScene(file, {.up = UpAxis::y});
+  const Scene track = loadTrustedScene(file, {.up = UpAxis::y});
   SnapshotRenderer osmesa(track, OffscreenBackend::osmesa);
   SnapshotRenderer egl(track, OffscreenBackend::egl);
   const Eigen::Vector3d place = track.corner(track.triangles.front(), 0);

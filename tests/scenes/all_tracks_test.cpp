@@ -34,7 +34,7 @@ TEST_F(AllTracks, Load) {
     SCOPED_TRACE(file);
     LoadReport report;
     Scene scene;
-    ASSERT_NO_THROW(scene = loadScene(file, {.up = UpAxis::y}, &report));
+    ASSERT_NO_THROW(scene = loadTrustedScene(file, {.up = UpAxis::y}, &report));
     EXPECT_EQ(report.triangles, scene.triangles.size());
     EXPECT_TRUE(report.warnings.empty());
     const WallReport walls = selectWalls(scene).report;
@@ -50,7 +50,7 @@ TEST_F(AllTracks, ReadLyingOnTheirSideAreWarnedAbout) {
     SCOPED_TRACE(file);
     LoadReport report;
     for (const UpAxis wrong : {UpAxis::x, UpAxis::z}) {
-      loadScene(file, {.up = wrong}, &report);
+      loadTrustedScene(file, {.up = wrong}, &report);
       EXPECT_EQ(report.warnings.size(), 1U);
     }
   }
@@ -62,7 +62,7 @@ TEST_F(AllTracks, NoCarTouchesWhatIsOutOfReach) {
   std::size_t dropped = 0;
   for (const std::filesystem::path& file : files) {
     SCOPED_TRACE(file);
-    const Scene scene = loadScene(file, {.up = UpAxis::y});
+    const Scene scene = loadTrustedScene(file, {.up = UpAxis::y});
     const Walls all = selectWalls(scene, {.dropRepeated = false, .groundReach = std::nullopt});
     const Walls kept = selectWalls(scene, {.dropRepeated = false});
     dropped += kept.report.droppedOverhead + kept.report.droppedBuried;

@@ -46,9 +46,9 @@ std::unique_ptr<aiScene> fence(const std::vector<unsigned>& face) {
   return scene;
 }
 
-FileScene converted(const aiScene& source) {
+FileScene converted(const aiScene& source, const SceneBudget& budget = {}) {
   FileScene result;
-  convert("yard.ply", source, result, [](LoadStage, double) {});
+  convert("yard.ply", source, budget, result, [](LoadStage, double) {});
   return result;
 }
 
@@ -63,6 +63,43 @@ TEST(AssimpConverter, CopiesWhatIsRight) {
   EXPECT_EQ(result.scene.triangles.size(), 1U);
   EXPECT_EQ(result.scene.meshes.at(0).name, "fence");
   EXPECT_EQ(converted(*fence({0, 1})).pointsAndLines, 1U);
+}
+
+/// The same shown by so many nodes.
+std::unique_ptr<aiScene> fences(unsigned count) {
+  auto scene = fence({0, 1, 2});
+  for (unsigned i = 1; i < count; ++i) {
+    auto node = std::make_unique<aiNode>("fence");
+    node->mNumMeshes = 1;
+    node->mMeshes = std::make_unique<unsigned[]>(1).release();
+    aiNode* child = node.release();
+    scene->mRootNode->addChildren(1, &child);
+  }
+  return scene;
+}
+
+TEST(AssimpConverter, StaysWithinTheBudget) {
+  const auto scene = fences(10);
+  // A root, ten nodes and ten meshes; ten names of five bytes.
+  const SceneBudget enough{.triangles = 10, .nodes = 21, .names = 50};
+  EXPECT_EQ(converted(*scene, enough).scene.triangles.size(), 10U);
+  const auto expectLimit = [&](SceneBudget budget, const std::string& limit) {
+    EXPECT_THAT([&] { converted(*scene, budget); },
+                ThrowsMessage<Error>(AllOf(HasSubstr("yard.ply"), HasSubstr(limit))));
+  };
+  SceneBudget less = enough;
+  less.triangles = 9;
+  expectLimit(less, "SceneBudget::triangles allows 9");
+  less = enough;
+  less.nodes = 20;
+  expectLimit(less, "SceneBudget::nodes allows 20");
+  less = enough;
+  less.names = 49;
+  expectLimit(less, "SceneBudget::names allows 49");
+  // Vertices that no face uses count too.
+  scene->mMeshes[0]->mVertices = nullptr;
+  scene->mMeshes[0]->mNumVertices = 1'000'000'000;
+  expectLimit(SceneBudget{}, "SceneBudget::triangles allows 5000000");
 }
 
 TEST(AssimpConverter, RefusesIndicesOutOfRange) {

@@ -33,7 +33,7 @@ class ImporterAxes : public TemporaryFiles {
     FileScene result;
     result.format = "Autodesk FBX";
     readConventions(file, *source, result);
-    convert(file, *source, result, [](LoadStage, double) {});
+    convert(file, *source, {}, result, [](LoadStage, double) {});
     return result;
   }
 };
@@ -87,7 +87,7 @@ TEST_F(ImporterAxes, OfOtherFormatsAreTheRootNodes) {
   FileScene result;
   result.format = "Collada";
   readConventions(file, *source, result);
-  convert(file, *source, result, [](LoadStage, double) {});
+  convert(file, *source, {}, result, [](LoadStage, double) {});
   EXPECT_EQ(result.up, UpAxis::y);
   EXPECT_EQ(result.scene.vertices.at(2), Vector3d(0, 100, 0));
 }

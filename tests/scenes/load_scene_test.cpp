@@ -57,17 +57,20 @@ TEST_F(LoadScene, LoadingTellsHowItGoesOn) {
     scene.triangles[i].mesh = static_cast<std::uint32_t>(i % 100);
   }
   saveScene(scene, path("course.obj"));
-  for (const bool isolate : {false, true}) {
+  for (const auto load : {loadTrustedScene, loadScene}) {
     std::vector<Told> told;
-    loadScene(path("course.obj"),
-              {.up = UpAxis::z, .isolate = isolate, .progress = [&](LoadStage stage, double share) {
-                 told.push_back({stage, share});
-               }});
+    load(path("course.obj"),
+         {.up = UpAxis::z,
+          .progress =
+              [&](LoadStage stage, double share) {
+                told.push_back({stage, share});
+              }},
+         nullptr);
     expectOrderly(told);
     const auto converting = std::count_if(told.begin(), told.end(), [](const Told& each) {
       return each.stage == LoadStage::converting && each.share > 0.0 && each.share < 1.0;
     });
-    EXPECT_EQ(converting > 0, !isolate);
+    EXPECT_EQ(converting > 0, load == loadTrustedScene);
   }
 }
 
@@ -75,12 +78,12 @@ TEST_F(LoadScene, OptionsOutOfRangeAreErrors) {
   const std::filesystem::path file = write("a.obj", "v 1 2 3\nv 5 2 3\nv 1 2 10\nf 1 2 3\n");
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double bad : {0.0, -1.0, nan, std::numeric_limits<double>::infinity()}) {
-    EXPECT_THAT([&] { loadScene(file, {.up = UpAxis::z, .scale = bad}); },
+    EXPECT_THAT([&] { loadTrustedScene(file, {.up = UpAxis::z, .scale = bad}); },
                 ThrowsMessage<Error>(HasSubstr("LoadOptions::scale")));
-    EXPECT_THAT([&] { loadScene(file, {.up = UpAxis::z, .timeout = bad}); },
+    EXPECT_THAT([&] { loadTrustedScene(file, {.up = UpAxis::z, .timeout = bad}); },
                 ThrowsMessage<Error>(HasSubstr("LoadOptions::timeout")));
   }
-  EXPECT_THAT([&] { loadScene(file, {.up = UpAxis::z, .memoryLimit = 1000}); },
+  EXPECT_THAT([&] { loadTrustedScene(file, {.up = UpAxis::z, .memoryLimit = 1000}); },
               ThrowsMessage<Error>(HasSubstr("LoadOptions::memoryLimit is 1000 bytes")));
 }
 
@@ -99,7 +102,7 @@ TEST_F(LoadScene, NodeTransformsAreAppliedAndMirroringKeepsTheOutsideOut) {
 "bufferViews": [{"buffer": 0, "byteLength": 36}],
 "buffers": [{"byteLength": 36,
  "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
-  const Scene scene = loadScene(file);
+  const Scene scene = loadTrustedScene(file);
   ASSERT_EQ(scene.triangles.size(), 2U);
   ASSERT_EQ(scene.meshes.size(), 2U);
   const auto triangle = [&](const std::string& name) {

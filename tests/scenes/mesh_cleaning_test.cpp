@@ -54,7 +54,7 @@ TEST_F(MeshCleaning, ConcavePolygonsAreCoveredOnceAndNotBeyond) {
   ASSERT_NEAR(std::abs(expected), 8.0 * 4.0 + 16.0, rounding) << "of the comb itself";
   for (const bool reversed : {false, true}) {
     if (reversed) std::reverse(comb.begin(), comb.end());
-    const Scene scene = loadScene(write("comb.obj", polygonObj(comb)), {.up = UpAxis::z});
+    const Scene scene = loadTrustedScene(write("comb.obj", polygonObj(comb)), {.up = UpAxis::z});
     double area = 0.0;
     double signedArea = 0.0;
     for (const Scene::Triangle& triangle : scene.triangles) {
@@ -73,10 +73,11 @@ TEST_F(MeshCleaning, HugeConcavePolygonIsAnErrorHugeConvexIsNot) {
     const double angle = 2.0 * 3.14159265358979 * i / 1500.0;
     round.emplace_back(10.0 * std::cos(angle), 10.0 * std::sin(angle), 0.0);
   }
-  EXPECT_EQ(loadScene(write("round.obj", polygonObj(round)), {.up = UpAxis::z}).triangles.size(),
-            1498U);
+  EXPECT_EQ(
+      loadTrustedScene(write("round.obj", polygonObj(round)), {.up = UpAxis::z}).triangles.size(),
+      1498U);
   for (std::size_t i = 0; i < round.size(); i += 2) round[i] *= 0.9;
-  EXPECT_THAT([&] { loadScene(write("star.obj", polygonObj(round)), {.up = UpAxis::z}); },
+  EXPECT_THAT([&] { loadTrustedScene(write("star.obj", polygonObj(round)), {.up = UpAxis::z}); },
               ThrowsMessage<Error>(AllOf(HasSubstr("star.obj"), HasSubstr("1500 corners"))));
 }
 
@@ -93,7 +94,7 @@ TEST_F(MeshCleaning, ReportSaysWhatWasDropped) {
             "l 1 2\nl 2 3\n"  // lines
             "p 4\n");
   LoadReport report;
-  const Scene scene = loadScene(file, {.up = UpAxis::z}, &report);
+  const Scene scene = loadTrustedScene(file, {.up = UpAxis::z}, &report);
   EXPECT_EQ(scene.triangles.size(), 3U);
   EXPECT_EQ(report.triangles, 3U);
   EXPECT_EQ(report.droppedDuplicate, 2U);
@@ -106,9 +107,9 @@ TEST_F(MeshCleaning, ReportSaysWhatWasDropped) {
 TEST_F(MeshCleaning, CornersAreWeldedOnlyWhereTheyFallTogether) {
   // Two triangles that share an edge in the file's mind: 4 µm apart is the same, 1 mm is not.
   const auto load = [&](const std::string& gap) {
-    return loadScene(write("gap.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nv " + gap + " 0 0\nv " + gap +
-                                          " 0 1\nv -1 0 0\nf 1 2 3\nf 4 5 6\n"),
-                     {.up = UpAxis::z});
+    return loadTrustedScene(write("gap.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nv " + gap + " 0 0\nv " +
+                                                 gap + " 0 1\nv -1 0 0\nf 1 2 3\nf 4 5 6\n"),
+                            {.up = UpAxis::z});
   };
   EXPECT_EQ(load("-0.000004").vertices.size(), 4U);
   EXPECT_EQ(load("-0.001").vertices.size(), 6U);

@@ -58,7 +58,7 @@ TEST_F(MissingParts, OfColladaFilesMayBeTextures) {
     SCOPED_TRACE(images + parameters);
     const std::filesystem::path file = write("fence.dae", collada(images, parameters));
     Scene scene;
-    ASSERT_NO_THROW(scene = loadScene(file, {.isolate = true}));
+    ASSERT_NO_THROW(scene = loadScene(file));
     EXPECT_EQ(scene.triangles.size(), 1U);
     EXPECT_EQ(scene.meshes.at(0).material, "paint");
   };
@@ -98,7 +98,7 @@ TEST_F(MissingParts, OfColladaFilesMayBeMaterials) {
   for (const std::string& text : {without("<library_effects>", "</library_effects>"),
                                   without("<library_materials>", "</library_materials>"),
                                   without("<bind_material>", "</bind_material>")}) {
-    EXPECT_EQ(loadScene(write("fence.dae", text), {.isolate = true}).triangles.size(), 1U);
+    EXPECT_EQ(loadScene(write("fence.dae", text)).triangles.size(), 1U);
   }
 }
 
@@ -109,7 +109,7 @@ TEST_F(MissingParts, OfOtherFormatsMayBeTexturesAndMaterials) {
   for (const std::string head : {"mtllib not_there.mtl\n", "mtllib without_picture.mtl\n", ""}) {
     for (const std::string material : {"paint", "other", ""}) {
       const auto file = write("fence.obj", head + corners + "usemtl " + material + "\nf 1 2 3\n");
-      EXPECT_EQ(loadScene(file, {.up = UpAxis::z}).triangles.size(), 1U) << head << material;
+      EXPECT_EQ(loadTrustedScene(file, {.up = UpAxis::z}).triangles.size(), 1U) << head << material;
     }
   }
 }
@@ -133,7 +133,7 @@ const std::string plainGltf =
  "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAAAAAgD8AAAAA"}])");
 
 TEST_F(MissingParts, OfGltfFilesMayBePictures) {
-  EXPECT_EQ(loadScene(write("fence.gltf", plainGltf)).meshes.at(0).material, "paint");
+  EXPECT_EQ(loadTrustedScene(write("fence.gltf", plainGltf)).meshes.at(0).material, "paint");
 }
 
 std::string compressed(const std::string& extension, const std::string& lists) {
@@ -162,10 +162,10 @@ std::string asGlb(std::string text) {
 TEST_F(MissingParts, CompressedMeshesThatCannotBeReadAreNamed) {
   const auto expectNamed = [&](const std::filesystem::path& file, const std::string& name,
                                const std::string& extension) {
-    for (const bool isolate : {false, true}) {
+    for (const auto load : {loadTrustedScene, loadScene}) {
       const NothingLeftBehind check;
       EXPECT_THAT(
-          [&] { loadScene(file, {.isolate = isolate}); },
+          [&] { load(file, {}, nullptr); },
           ThrowsMessage<Error>(AllOf(HasSubstr(file.string()),
                                      HasSubstr("compressed by " + name + " (" + extension))));
     }
@@ -182,7 +182,7 @@ TEST_F(MissingParts, CompressedMeshesThatCannotBeReadAreNamed) {
     }
   }
   // What is not compressed has another fault.
-  EXPECT_THAT([&] { loadScene(write("broken.gltf", plainGltf.substr(0, 400))); },
+  EXPECT_THAT([&] { loadTrustedScene(write("broken.gltf", plainGltf.substr(0, 400))); },
               ThrowsMessage<Error>(Not(HasSubstr("compressed"))));
 }
 

@@ -40,7 +40,7 @@ TEST_P(TrackCounts, AreThoseCountedByOtherMeans) {
   const std::filesystem::path file = track(GetParam().file);
   BUMPER_NEED_TRACK(file);
   LoadReport report;
-  const Scene scene = loadScene(file, {.up = UpAxis::y}, &report);
+  const Scene scene = loadTrustedScene(file, {.up = UpAxis::y}, &report);
   EXPECT_EQ(report.triangles + report.droppedDegenerate + report.droppedDuplicate,
             GetParam().triangles);
   EXPECT_EQ(report.droppedDegenerate + report.droppedDuplicate, GetParam().dropped);
@@ -71,8 +71,8 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(Tracks, AreReadAlikeInProcessAndInIsolation) {
   const std::filesystem::path file = track("road/aalborg/aalborg.acc");
   BUMPER_NEED_TRACK(file);
-  const Scene inProcess = loadScene(file, {.up = UpAxis::y});
-  const Scene isolated = loadScene(file, {.up = UpAxis::y, .isolate = true});
+  const Scene inProcess = loadTrustedScene(file, {.up = UpAxis::y});
+  const Scene isolated = loadScene(file, {.up = UpAxis::y});
   EXPECT_EQ(inProcess.name, isolated.name);
   EXPECT_EQ(inProcess.vertices, isolated.vertices);
   ASSERT_EQ(inProcess.triangles.size(), isolated.triangles.size());
@@ -102,7 +102,7 @@ double uprightEdge(const Wall& wall) {
 TEST_F(Tracks, BarriersAreAsTallAsTheTracksDescriptionStates) {
   const std::filesystem::path file = track("road/aalborg/aalborg.acc");
   BUMPER_NEED_TRACK(file);
-  const Scene scene = loadScene(file, {.up = UpAxis::y});
+  const Scene scene = loadTrustedScene(file, {.up = UpAxis::y});
   // aalborg.xml: "Left Barrier" and "Right Barrier" are 0.6 m tall, on some segments 3.0 m. The
   // file names their meshes B…LT… and B…RT….
   const auto isBarrier = [&](const Wall& wall) {

@@ -25,7 +25,7 @@ class UpAxes : public TemporaryFiles {
   [[nodiscard]] std::vector<std::string> warningsOf(const Scene& scene, UpAxis up) const {
     saveScene(scene, path("scene.obj"));
     LoadReport report;
-    loadScene(path("scene.obj"), {.up = up}, &report);
+    loadTrustedScene(path("scene.obj"), {.up = up}, &report);
     EXPECT_EQ(report.up, up);
     return report.warnings;
   }
@@ -83,16 +83,16 @@ TEST_F(UpAxes, ThatAFileStatesAreNotTakenOnTrust) {
   const Scene hall = room({30, 30, 5}, true);
   LoadReport report;
   saveScene(hall, path("hall.glb"));
-  for (const bool isolate : {false, true}) {
-    loadScene(path("hall.glb"), {.isolate = isolate}, &report);
+  for (const auto load : {loadTrustedScene, loadScene}) {
+    load(path("hall.glb"), {}, &report);
     EXPECT_THAT(report.warnings, IsEmpty());
   }
   // As a converter writes it that does not turn: y stays y, and is up by the standard.
   Scene lying = hall;
   for (Vector3d& vertex : lying.vertices) vertex = {vertex.x(), -vertex.z(), vertex.y()};
   saveScene(lying, path("lying.glb"));
-  for (const bool isolate : {false, true}) {
-    loadScene(path("lying.glb"), {.isolate = isolate}, &report);
+  for (const auto load : {loadTrustedScene, loadScene}) {
+    load(path("lying.glb"), {}, &report);
     EXPECT_EQ(report.up, UpAxis::y);
     EXPECT_THAT(report.warnings,
                 ElementsAre("scene file \"" + path("lying.glb").string() +
@@ -100,7 +100,7 @@ TEST_F(UpAxes, ThatAFileStatesAreNotTakenOnTrust) {
                             "instead of 30 m, with 1.8e+03 m² of level ground instead of 300 m²; "
                             "see LoadOptions::up"));
   }
-  loadScene(path("lying.glb"), {.up = UpAxis::z}, &report);
+  loadTrustedScene(path("lying.glb"), {.up = UpAxis::z}, &report);
   EXPECT_THAT(report.warnings, IsEmpty());
 }
 

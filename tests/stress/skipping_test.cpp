@@ -258,8 +258,8 @@ class SkippingOnTracks : public testing::TestWithParam<std::string> {};
 TEST_P(SkippingOnTracks, ChangesNothing) {
   const std::filesystem::path file = std::filesystem::path(BUMPER_TRACKS_DIR) / GetParam();
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "not fetched: examples/fetch_tracks.sh";
-  expectEqual(Arena(loadScene(file, {.up = UpAxis::y, .isolate = true, .timeout = 120.0})),
-              extent(2'000, 60'000), 4);
+  expectEqual(Arena(loadScene(file, {.up = UpAxis::y, .timeout = 120.0})), extent(2'000, 60'000),
+              4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Tracks, SkippingOnTracks,

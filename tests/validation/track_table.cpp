@@ -25,7 +25,7 @@ double milliseconds(Clock::duration duration) {
 void printRow(const std::filesystem::path& file) {
   LoadReport loaded;
   const auto begin = Clock::now();
-  const Scene scene = loadScene(file, {.up = UpAxis::y}, &loaded);
+  const Scene scene = loadTrustedScene(file, {.up = UpAxis::y}, &loaded);
   const auto middle = Clock::now();
   const WallReport walls = selectWalls(scene).report;
   const auto end = Clock::now();

@@ -1,6 +1,7 @@
 #include "assimp_converter.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -22,6 +23,72 @@ Transform toDouble(const aiMatrix4x4& m) {
   transform << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2,
       m.d3, m.d4;
   return transform.cast<double>();
+}
+
+/// How much an assimp scene would become.
+class Cost {
+ public:
+  Cost(const std::filesystem::path& file, const aiScene& source, const SceneBudget& budget)
+      : file_(file), source_(source), budget_(budget), trianglesOf_(source.mNumMeshes) {
+    for (unsigned i = 0; i < source.mNumMeshes; ++i) {
+      const aiMesh& mesh = *source.mMeshes[i];
+      for (unsigned k = 0; k < mesh.mNumFaces; ++k) {
+        trianglesOf_[i] += std::max(mesh.mFaces[k].mNumIndices, 2U) - 2;
+      }
+    }
+  }
+
+  void addNode(const aiNode& node) {
+    ++nodes_;
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+      if (node.mMeshes[i] < source_.mNumMeshes) addMesh(node, node.mMeshes[i]);
+    }
+    require(nodes_, budget_.nodes, "nodes and meshes in them", "nodes");
+  }
+
+ private:
+  void addMesh(const aiNode& node, unsigned index) {
+    const aiMesh& mesh = *source_.mMeshes[index];
+    ++nodes_;
+    triangles_ += trianglesOf_[index];
+    vertices_ += mesh.mNumVertices;
+    names_ += std::max(node.mName.length, mesh.mName.length);
+    if (mesh.mMaterialIndex < source_.mNumMaterials) {
+      names_ += source_.mMaterials[mesh.mMaterialIndex]->GetName().length;
+    }
+    require(triangles_, budget_.triangles, "triangles, each copy of a mesh counted,", "triangles");
+    require(vertices_ / 3, budget_.triangles, "times three vertices, each copy counted,",
+            "triangles");
+    require(names_, budget_.names, "bytes of names", "names");
+  }
+
+  void require(std::uint64_t actual, std::size_t most, const char* what, const char* limit) const {
+    if (actual <= most) return;
+    throw fileError(file_, "holds " + std::to_string(actual) + " or more " + what +
+                               " but SceneBudget::" + limit + " allows " + std::to_string(most));
+  }
+
+  const std::filesystem::path& file_;
+  const aiScene& source_;
+  const SceneBudget& budget_;
+  std::vector<std::uint64_t> trianglesOf_;  // by mesh
+  std::uint64_t nodes_ = 0;
+  std::uint64_t triangles_ = 0;
+  std::uint64_t vertices_ = 0;
+  std::uint64_t names_ = 0;
+};
+
+void requireBudget(const std::filesystem::path& file, const aiScene& source,
+                   const SceneBudget& budget) {
+  Cost cost(file, source, budget);
+  std::vector<const aiNode*> open;
+  if (source.mRootNode != nullptr) open.push_back(source.mRootNode);
+  while (!open.empty()) {
+    const aiNode* node = open.back();
+    open.pop_back();
+    cost.addNode(*node);
+    open.insert(open.end(), node->mChildren, node->mChildren + node->mNumChildren);
+  }
 }
 
 class Converter {
@@ -101,7 +168,6 @@ class Converter {
     if (mesh.mNumVertices >= std::numeric_limits<std::uint32_t>::max() - vertices.size()) {
       fail(name, "brings the file above 4,294,967,294 vertices");
     }
-    vertices.reserve(vertices.size() + mesh.mNumVertices);
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
       const aiVector3D& v = mesh.mVertices[i];
       const Eigen::Vector3d place = Eigen::Vector3f(v.x, v.y, v.z).cast<double>();
@@ -162,8 +228,9 @@ class Converter {
 
 }  // namespace
 
-void convert(const std::filesystem::path& file, const aiScene& source, FileScene& result,
-             const Progress& progress) {
+void convert(const std::filesystem::path& file, const aiScene& source, const SceneBudget& budget,
+             FileScene& result, const Progress& progress) {
+  requireBudget(file, source, budget);
   Converter(file, source, result, progress).convert();
 }
 

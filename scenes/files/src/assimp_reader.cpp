@@ -21,8 +21,8 @@ namespace bumper {
 
 namespace {
 
-/// assimp's name of the importer that may read the file in this process.
-std::string safeImporter(const std::filesystem::path& file) {
+/// assimp's name of the importer of a format of loadTrustedScene().
+std::string ownImporter(const std::filesystem::path& file) {
   static const std::map<std::string, std::string> importers{
       {".obj", "Wavefront Object Importer"},
       {".gltf", "glTF2 Importer"},
@@ -38,7 +38,7 @@ std::string safeImporter(const std::filesystem::path& file) {
   if (found != importers.end()) return found->second;
   throw fileError(file,
                   "is in a format that is not read in this process: allowed are .obj, .gltf, .glb, "
-                  ".stl, .fbx, .3ds, .ac, .acc and .ac3d; set LoadOptions::isolate for any other");
+                  ".stl, .fbx, .3ds, .ac, .acc and .ac3d; loadScene() reads any other");
 }
 
 /// Leaves a single importer registered: assimp would otherwise try others by the file's content.
@@ -78,13 +78,15 @@ class ReadingProgress : public Assimp::ProgressHandler {
 }  // namespace
 
 FileScene readWithAssimp(const std::filesystem::path& file, Formats formats,
-                         const Progress& progress) {
+                         const SceneBudget& budget, const Progress& progress) {
   requireFile(file);
   Assimp::Importer importer;
   progress(LoadStage::reading, 0.0);
   importer.SetProgressHandler(std::make_unique<ReadingProgress>(progress).release());  // it owns
-  importer.SetIOHandler(std::make_unique<TexturelessFiles>().release());               // likewise
-  if (formats == Formats::safe) keepOnly(importer, safeImporter(file));
+  auto ownFiles = std::make_unique<TexturelessFiles>(file);
+  const TexturelessFiles& files = *ownFiles;
+  importer.SetIOHandler(ownFiles.release());  // likewise
+  if (formats == Formats::own) keepOnly(importer, ownImporter(file));
   const aiScene* source = nullptr;
   std::string reason;
   try {
@@ -92,6 +94,9 @@ FileScene readWithAssimp(const std::filesystem::path& file, Formats formats,
     reason = importer.GetErrorString();
   } catch (const std::exception& error) {
     reason = error.what();
+  }
+  if (!files.refused().empty()) {
+    throw fileError(file, "refers to \"" + files.refused() + "\", which is not in its folder");
   }
   if (source == nullptr) {
     if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
@@ -107,7 +112,7 @@ FileScene readWithAssimp(const std::filesystem::path& file, Formats formats,
   }
   result.scene.name = file.stem().string();
   readConventions(file, *source, result);
-  convert(file, *source, result, progress);
+  convert(file, *source, budget, result, progress);
   if (result.scene.triangles.empty()) throw fileError(file, "holds no triangle");
   return result;
 }

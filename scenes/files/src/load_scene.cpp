@@ -99,20 +99,25 @@ void dropDuplicates(Scene& scene, LoadReport& report) {
   });
 }
 
-}  // namespace
-
-Scene loadScene(const std::filesystem::path& file, const LoadOptions& options, LoadReport* report) {
+/// What `readFile` has read, as a scene.
+template <typename ReadFile>
+Scene load(const std::filesystem::path& file, const LoadOptions& options, LoadReport* report,
+           const ReadFile& readFile) {
   validate(options);
   const Progress progress =
       options.progress ? options.progress : Progress([](LoadStage, double) {});
   FileScene read;
   try {
-    read = options.isolate ? readIsolated(file, options, progress)
-                           : readWithAssimp(file, Formats::safe, progress);
+    read = readFile(progress);
   } catch (const std::bad_alloc&) {
     throw fileError(file, "cannot be read: not enough memory");
   } catch (const Error& error) {
     throw Error(error.what() + compressionNote(file));
+  }
+  try {
+    bumper::validate(read.scene, options.budget);
+  } catch (const Error& error) {
+    throw fileError(file, std::string("cannot be read: ") + error.what());
   }
   if (!options.up && !read.up) failWithoutUp(file, read);
 
@@ -142,6 +147,20 @@ Scene loadScene(const std::filesystem::path& file, const LoadOptions& options, L
   }
   if (report != nullptr) *report = done;
   return std::move(read.scene);
+}
+
+}  // namespace
+
+Scene loadScene(const std::filesystem::path& file, const LoadOptions& options, LoadReport* report) {
+  return load(file, options, report,
+              [&](const Progress& progress) { return readIsolated(file, options, progress); });
+}
+
+Scene loadTrustedScene(const std::filesystem::path& file, const LoadOptions& options,
+                       LoadReport* report) {
+  return load(file, options, report, [&](const Progress& progress) {
+    return readWithAssimp(file, Formats::own, options.budget, progress);
+  });
 }
 
 }  // namespace bumper

@@ -62,17 +62,20 @@ std::filesystem::path findProgram() {
     if (access(program.c_str(), X_OK) == 0) return program;
     tried += (tried.empty() ? "" : " nor ") + program.string();
   }
-  throw Error(std::string("the program ") + programName +
-              ", which LoadOptions::isolate needs, is neither " + tried + ": set " +
-              programVariable + " to where it is");
+  throw Error(std::string("the program ") + programName + ", which loadScene() needs, is neither " +
+              tried + ": set " + programVariable + " to where it is");
 }
 
 std::unique_ptr<ChildProcess> start(const std::filesystem::path& program,
                                     const std::filesystem::path& file, const LoadOptions& options) {
   // In case that nobody is left to stop it.
   const auto alarm = static_cast<unsigned>(std::min(options.timeout, 1e9)) + 2U;
-  const std::vector<std::string> arguments{file.string(), std::to_string(options.memoryLimit),
-                                           std::to_string(alarm)};
+  const SceneBudget& budget = options.budget;
+  std::vector<std::string> arguments{file.string()};
+  for (const std::size_t number : {options.memoryLimit, std::size_t{alarm}, budget.triangles,
+                                   budget.nodes, budget.names, budget.nameLength}) {
+    arguments.push_back(std::to_string(number));
+  }
   try {
     // Absolute, so that it is not looked for in PATH.
     return std::make_unique<ChildProcess>(std::filesystem::absolute(program).string(), arguments,
@@ -90,6 +93,7 @@ std::string readToEnd(int pipe, const std::filesystem::path& file, const LoadOpt
   const auto deadline =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(
                          std::chrono::duration<double>(std::min(options.timeout, 1e9)));
+  const std::size_t longest = longestAnswer(options.budget);
   std::string bytes;
   std::array<char, 65536> block{};
   for (;;) {
@@ -115,6 +119,12 @@ std::string readToEnd(int pipe, const std::filesystem::path& file, const LoadOpt
       throw fileError(file, "cannot be read: it needs more than LoadOptions::memoryLimit, " +
                                 std::to_string(options.memoryLimit) + " bytes");
     }
+    if (bytes.size() > longest) {
+      throw fileError(file,
+                      "cannot be read: the answer is longer than any within "
+                      "LoadOptions::budget, " +
+                          std::to_string(longest) + " bytes");
+    }
   }
 }
 
@@ -132,7 +142,7 @@ FileScene readIsolated(const std::filesystem::path& file, const LoadOptions& opt
     throw fileError(file, std::string("cannot be read: it crashes the reader (") +
                               strsignal(WTERMSIG(status)) + ")");
   }
-  std::optional<ReadResult> result = unpack(bytes);
+  std::optional<ReadResult> result = unpack(bytes, options.budget);
   if (!result) {
     throw fileError(
         file, "cannot be read: " + program.string() + " ended without an answer that makes sense");

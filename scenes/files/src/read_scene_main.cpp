@@ -2,7 +2,6 @@
 // arrays to standard output. Whatever the file does to the reader, only this process is harmed.
 
 #include <fcntl.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -15,25 +14,13 @@
 #include <string_view>
 
 #include "assimp_reader.h"
+#include "confinement.h"
 #include "scene_stream.h"
 
 namespace {
 
-void setLimit(decltype(RLIMIT_AS) resource, rlim_t value) {
-  const rlimit limit{value, value};
-  setrlimit(resource, &limit);
-}
-
-void limitResources(const char* memory, const char* seconds) {
-  setLimit(RLIMIT_CORE, 0);
-#ifndef __SANITIZE_ADDRESS__  // which maps terabytes
-  setLimit(RLIMIT_AS, std::strtoull(memory, nullptr, 10));
-#else
-  static_cast<void>(memory);
-#endif
-  alarm(static_cast<unsigned>(std::strtoul(seconds, nullptr, 10)));
-  // With the parent gone, write() fails.
-  static_cast<void>(std::signal(SIGPIPE, SIG_IGN));
+std::size_t number(const char* text) {
+  return static_cast<std::size_t>(std::strtoull(text, nullptr, 10));
 }
 
 /// Keeps standard output for the answer: what an importer prints must not get in between.
@@ -54,17 +41,18 @@ bool writeAll(int output, std::string_view bytes) {
   return true;
 }
 
-std::string answer(const std::string& file, const char* memory) {
+std::string answer(const std::string& file, std::size_t memory, const bumper::SceneBudget& budget) {
   using bumper::pack;
   try {
-    return pack(
-        bumper::readWithAssimp(file, bumper::Formats::all, [](bumper::LoadStage, double) {}));
+    return pack(bumper::readWithAssimp(file, bumper::Formats::all, budget,
+                                       [](bumper::LoadStage, double) {}));
   } catch (const bumper::Error& error) {
     return pack(error.what());
   } catch (const std::bad_alloc&) {
-    return pack(bumper::fileError(file, std::string("cannot be read: it needs more than "
-                                                    "LoadOptions::memoryLimit, ") +
-                                            memory + " bytes")
+    return pack(bumper::fileError(file,
+                                  "cannot be read: it needs more than "
+                                  "LoadOptions::memoryLimit, " +
+                                      std::to_string(memory) + " bytes")
                     .what());
   } catch (const std::exception& error) {
     return pack(bumper::fileError(file, std::string("cannot be read: ") + error.what()).what());
@@ -74,14 +62,24 @@ std::string answer(const std::string& file, const char* memory) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
+  if (argc != 8) {
     std::fputs(
-        "usage: bumper-read-scene FILE MEMORY_BYTES SECONDS\n"
+        "usage: bumper-read-scene FILE MEMORY_BYTES SECONDS TRIANGLES NODES NAME_BYTES "
+        "NAME_LENGTH\n"
         "A helper of the bumper library, not made to be run by hand.\n",
         stderr);
     return EXIT_FAILURE;
   }
+  const std::size_t memory = number(argv[2]);
+  const bumper::SceneBudget budget{.triangles = number(argv[4]),
+                                   .nodes = number(argv[5]),
+                                   .names = number(argv[6]),
+                                   .nameLength = number(argv[7])};
   const int output = reserveOutput();
-  limitResources(argv[2], argv[3]);
-  return writeAll(output, answer(argv[1], argv[2])) ? EXIT_SUCCESS : EXIT_FAILURE;
+  alarm(static_cast<unsigned>(number(argv[3])));
+  // With the parent gone, write() fails.
+  static_cast<void>(std::signal(SIGPIPE, SIG_IGN));
+  bumper::limitResources(memory);
+  bumper::confineTo(argv[1]);
+  return writeAll(output, answer(argv[1], memory, budget)) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

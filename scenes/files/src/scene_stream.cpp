@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -17,6 +18,12 @@ constexpr std::uint64_t magic = 0x3130'6E63'7362'6D62ULL;
 enum class Kind : std::uint64_t { scene = 1, message = 2 };
 
 constexpr std::uint64_t noAxis = 3;
+
+/// A mesh without names, bytes: their lengths and the colour.
+constexpr std::size_t smallestMesh = 2 * sizeof(std::uint64_t) + 3 * sizeof(float);
+
+/// What there is of a scene once, with its name and format, or a message: bytes.
+constexpr std::size_t mostAround = std::size_t{1} << 16U;
 
 class Packer {
  public:
@@ -111,12 +118,14 @@ void pack(Packer& packer, const FileScene& file) {
   packer.put<std::uint64_t>(file.emptyMeshes);
 }
 
-std::optional<FileScene> unpackScene(Unpacker& unpacker) {
+std::optional<FileScene> unpackScene(Unpacker& unpacker, const SceneBudget& budget) {
   FileScene file;
   file.scene.name = unpacker.getText();
   file.scene.vertices = unpacker.getArray<Eigen::Vector3d>();
   file.scene.triangles = unpacker.getArray<Scene::Triangle>();
-  file.scene.meshes.resize(unpacker.getCount(3 * sizeof(float)));
+  const std::size_t meshes = unpacker.getCount(smallestMesh);
+  if (meshes > budget.nodes) return {};
+  file.scene.meshes.resize(meshes);
   for (SceneMesh& mesh : file.scene.meshes) {
     mesh.name = unpacker.getText();
     mesh.material = unpacker.getText();
@@ -147,12 +156,12 @@ std::string pack(const ReadResult& result) {
   return packer.take();
 }
 
-std::optional<ReadResult> unpack(std::string_view bytes) {
+std::optional<ReadResult> unpack(std::string_view bytes, const SceneBudget& budget) {
   Unpacker unpacker(bytes);
   if (unpacker.get<std::uint64_t>() != magic) return {};
   switch (unpacker.get<Kind>()) {
     case Kind::scene:
-      if (std::optional<FileScene> file = unpackScene(unpacker)) return std::move(*file);
+      if (std::optional<FileScene> file = unpackScene(unpacker, budget)) return std::move(*file);
       return {};
     case Kind::message: {
       std::string message = unpacker.getText();
@@ -161,6 +170,14 @@ std::optional<ReadResult> unpack(std::string_view bytes) {
     }
   }
   return {};
+}
+
+std::size_t longestAnswer(const SceneBudget& budget) {
+  const double bytes = static_cast<double>(budget.triangles) *
+                           (sizeof(Scene::Triangle) + 3 * sizeof(Eigen::Vector3d)) +
+                       static_cast<double>(budget.nodes) * smallestMesh +
+                       static_cast<double>(budget.names) + mostAround;
+  return bytes < 1e18 ? static_cast<std::size_t>(bytes) : std::numeric_limits<std::size_t>::max();
 }
 
 }  // namespace bumper

@@ -15,7 +15,10 @@ using ReadResult = std::variant<FileScene, std::string>;
 /// As bytes for a pipe between two programs of one machine.
 std::string pack(const ReadResult& result);
 
-/// Nothing if the bytes are not exactly what pack() makes.
-std::optional<ReadResult> unpack(std::string_view bytes);
+/// Nothing if the bytes are not exactly what pack() makes, or of more meshes than `budget` allows.
+std::optional<ReadResult> unpack(std::string_view bytes, const SceneBudget& budget);
+
+/// No scene within the budget takes more bytes.
+std::size_t longestAnswer(const SceneBudget& budget);
 
 }  // namespace bumper

@@ -24,7 +24,7 @@ void hideTextures(std::string& collada) {
 }
 
 Assimp::IOStream* TexturelessFiles::Open(const char* file, const char* mode) {
-  std::unique_ptr<Assimp::IOStream> stream(DefaultIOSystem::Open(file, mode));
+  std::unique_ptr<Assimp::IOStream> stream(FolderFiles::Open(file, mode));
   if (stream != nullptr && lowerCaseEnding(file) == ".dae") {
     std::string text(stream->FileSize(), '\0');
     text.resize(stream->Read(text.data(), 1, text.size()));

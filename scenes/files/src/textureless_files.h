@@ -1,8 +1,8 @@
 #pragma once
 
-#include <assimp/DefaultIOSystem.h>
-
 #include <string>
+
+#include "folder_files.h"
 
 namespace bumper {
 
@@ -11,9 +11,11 @@ namespace bumper {
 /// for a texture that is missing.
 void hideTextures(std::string& collada);
 
-/// The files of the disk, Collada files (.dae) without their textures.
-class TexturelessFiles : public Assimp::DefaultIOSystem {
+/// A file and those in its folder, Collada files (.dae) without their textures.
+class TexturelessFiles : public FolderFiles {
  public:
+  using FolderFiles::FolderFiles;
+
   // NOLINTNEXTLINE(google-default-arguments): assimp's
   Assimp::IOStream* Open(const char* file, const char* mode = "rb") override;
 };

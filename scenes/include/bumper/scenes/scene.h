@@ -38,7 +38,8 @@ struct Scene {
 void validate(const Scene& scene);
 
 /// For each mesh of a scene whether the whole of its name, or of its material, matches a regular
-/// expression (ECMAScript); an empty one matches none. Throws Error if `pattern` is none.
+/// expression (ECMAScript); an empty one matches none. Throws Error if `pattern` is none, or if a
+/// name is longer than SceneBudget's usual nameLength: matching takes stack for each character.
 std::vector<bool> matchingMeshes(const Scene& scene, const std::string& pattern);
 
 }  // namespace bumper

@@ -53,6 +53,14 @@ class WallPlan {
   };
   class Builder;
 
+  /// Those of the grid that a rectangle touches, the last ones included.
+  struct Cells {
+    std::size_t left, right, near, far;
+    [[nodiscard]] std::size_t count() const { return (right - left + 1) * (far - near + 1); }
+  };
+
+  [[nodiscard]] Cells cellsOf(std::size_t line) const;
+  void chooseCellSize();
   void sortIntoCells();
   void shorten(const Run& run, const PlanStrip& strip, double& until) const;
   [[nodiscard]] std::size_t columnAt(double x) const;
