@@ -269,11 +269,13 @@ class PileRun {
 
   void checkDepths(const std::vector<PlanarMotion>& motions, const char* when) {
     if (wasHeld_) return;
+    // Of the way in the penetration time; a third one may press two into each other.
+    const double share = motions.size() == 2 ? 0.6 : 1.5;
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
       const auto i = static_cast<std::size_t>(pairs_[p].first);
       const auto k = static_cast<std::size_t>(pairs_[p].second);
       const double depth = depthOf(pile_.vehicles[i], motions[i], pile_.vehicles[k], motions[k]);
-      const double allowed = 1e-6 + 0.6 * fastest_[p] * pile_.settings.penetrationTime;
+      const double allowed = 1e-6 + share * fastest_[p] * pile_.settings.penetrationTime;
       worstDepth = std::max(worstDepth, depth / allowed);
       if (depth > allowed) note(std::string("one in another") + when, depth);
     }
