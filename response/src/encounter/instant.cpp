@@ -140,12 +140,16 @@ std::span<const TouchingPoint> Instant::touchingPoints() {
   return {points_.data(), count};
 }
 
-void Instant::takePart(std::size_t point, double impulse, double time) {
+void Instant::takePart(std::size_t point, const ContactImpulse& impulse, double energyChange,
+                       double time) {
   const auto& [wall, at] = owners_[point];
+  const double energy = vehicle_.body.energy();
   ImpactResponse response =
       plainResponse({.normal = at.normal, .arm = at.contact.arm}, vehicle_.body,
-                    onVehicle({.normal = impulse}, at.normal, at.contact.arm));
+                    onVehicle(impulse, at.normal, at.contact.arm));
   response.approachSpeed = at.speed;
+  response.contact.energyChange = energyChange;
+  response.energyRatio = energy > 0.0 ? std::max(1.0 + energyChange / energy, 0.0) : 1.0;
   record(*wall, at, time, response);
 }
 

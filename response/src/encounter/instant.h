@@ -42,10 +42,10 @@ class Instant {
   Settled settle(double time, Effort effort = Effort::as_set);
 
   /// For impulses at all walls that are touched now, and at other vehicles, at once: the points
-  /// that they act at, and the part at one of them, N s along its normal. Valid until the next
-  /// settle().
+  /// that they act at, and the part at one of them with its share of the energy, J. Valid until the
+  /// next settle().
   std::span<const TouchingPoint> touchingPoints();
-  void takePart(std::size_t point, double impulse, double time);
+  void takePart(std::size_t point, const ContactImpulse& impulse, double energyChange, double time);
 
   /// Of all instants since begin().
   [[nodiscard]] std::span<const StepImpact> impacts() const { return impacts_; }

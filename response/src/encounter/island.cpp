@@ -311,12 +311,18 @@ void Island::answerTogether(double time) {
       owners_.push_back({.pair = static_cast<int>(&pair - pairs_.data()), .aside = aside});
     }
   }
-  const std::span<const double> impulses = joint_.solve(jointBodies_, jointContacts_);
-  for (std::size_t i = 0; i < impulses.size(); ++i) {
-    if (!(impulses[i] > 0.0)) continue;
+  const JointApproach::Result result = joint_.solve(jointBodies_, jointContacts_);
+  const std::size_t firstImpact = impacts_.size();
+  for (std::size_t i = 0; i < result.impulses.size(); ++i) {
+    if (!(result.impulses[i] > 0.0)) continue;
     const Owner& owner = owners_[i];
+    // Between these impulses no motion existed: what all of them dissipate is shared.
+    const double weight = result.impulses[i] * std::max(-result.speeds[i], 0.0);
+    const double change = result.weight > 0.0 ? result.energyChange * weight / result.weight : 0.0;
     if (owner.pair < 0) {
-      member(owner.member).encounter->instant().takePart(owner.wall, impulses[i], time);
+      member(owner.member)
+          .encounter->instant()
+          .takePart(owner.wall, {.normal = result.impulses[i]}, change, time);
       continue;
     }
     Pair& pair = pairs_[static_cast<std::size_t>(owner.pair)];
@@ -329,13 +335,18 @@ void Island::answerTogether(double time) {
     for (Vector2* place : {&impact.impact.point, &impact.impact.arm, &impact.impact.otherArm}) {
       *place += owner.aside;
     }
-    impact.response =
-        plainResponse(impact.impact, first.body, second.body,
-                      onVehicle({.normal = impulses[i]}, impact.impact.normal, impact.impact.arm));
+    impact.response = plainResponse(
+        impact.impact, first.body, second.body,
+        onVehicle({.normal = result.impulses[i]}, impact.impact.normal, impact.impact.arm));
+    const double energy = first.body.energy() + second.body.energy();
+    impact.response.approachSpeed = -result.speeds[i];
+    impact.response.contact.energyChange = change;
+    impact.response.energyRatio = energy > 0.0 ? std::max(1.0 + change / energy, 0.0) : 1.0;
+    if (impacts_.size() > firstImpact) impacts_.back().isPartOfNext = true;
     impacts_.push_back(impact);
     const JointContact& contact = jointContacts_[i];
     const auto act = [&](std::size_t number, const Vector2& normal, const Vector2& arm) {
-      const Vector2 linear = impulses[i] * normal;
+      const Vector2 linear = result.impulses[i] * normal;
       const PlanarImpulse own{.linear = linear, .angular = cross(arm, linear)};
       members_[number].encounter->participant().body.apply(own);
       members_[number].impulse += own;

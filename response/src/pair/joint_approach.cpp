@@ -119,8 +119,8 @@ bool JointApproach::balance(std::span<const PlanarBody> bodies,
   return true;
 }
 
-std::span<const double> JointApproach::solve(std::span<const PlanarBody> bodies,
-                                             std::span<const JointContact> contacts) {
+JointApproach::Result JointApproach::solve(std::span<const PlanarBody> bodies,
+                                           std::span<const JointContact> contacts) {
   impulses_.assign(contacts.size(), 0.0);
   isUseless_.assign(contacts.size(), false);
   speeds_.clear();
@@ -151,7 +151,18 @@ std::span<const double> JointApproach::solve(std::span<const PlanarBody> bodies,
       isUseless_[next] = true;
     }
   }
-  return impulses_;
+  Result result{.impulses = impulses_, .speeds = speeds_};
+  bodies_.assign(bodies.begin(), bodies.end());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (!(impulses_[i] > 0.0)) continue;
+    act(bodies_, contacts[i], impulses_[i]);
+    result.weight += impulses_[i] * std::max(-speeds_[i], 0.0);
+  }
+  double change = 0.0;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    change += bodies_[i].energy() - bodies[i].energy();
+  result.energyChange = std::min(change, 0.0);
+  return result;
 }
 
 }  // namespace bumper

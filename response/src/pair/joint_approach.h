@@ -26,10 +26,15 @@ struct JointContact {
 /// of kinetic energy. endApproach() for several bodies; the active set is found the same way.
 class JointApproach {
  public:
-  /// N s along each contact's normal, ≥ 0; valid until the next call. At most `mostActive` of them
-  /// act at once: what still approaches then is left to the next call.
-  std::span<const double> solve(std::span<const PlanarBody> bodies,
-                                std::span<const JointContact> contacts);
+  struct Result {
+    std::span<const double> impulses;  ///< N s along each contact's normal, ≥ 0
+    std::span<const double> speeds;    ///< at which each separates before, m/s
+    double energyChange = 0.0;         ///< of all bodies, J, ≤ 0
+    double weight = 0.0;               ///< the sum of impulses times approach speeds before, J
+  };
+  /// Valid until the next call. At most `mostActive` impulses act at once: what still approaches
+  /// then is left to the next call.
+  Result solve(std::span<const PlanarBody> bodies, std::span<const JointContact> contacts);
 
   static constexpr std::size_t mostActive = 128;
 

@@ -50,7 +50,7 @@ PairContact pairContact(const PairBody& first, const PairBody& second, double pe
   const PlanarMotion& motion = first.body.motion;
   const PlanarMotion& others = second.body.motion;
   const double speed = fastestClosing(first, second);
-  const double deepest = 0.5 * std::min(narrowest(first.outline), narrowest(second.outline));
+  const double deepest = std::min(narrowest(first.outline), narrowest(second.outline));
   const double time = std::min(penetrationTime, speed > 0.0 ? deepest / speed : penetrationTime);
   const double grown = 0.5 * std::max(leastEngaged - speed * time, 0.0);
   const Outline own = first.outline.grown(grown);

@@ -28,7 +28,7 @@ struct PairContact {
 };
 
 /// The nearest-face rule. Both outlines are carried on by their own motion for the penetration
-/// time, by no more than half the narrower one's width. R being their overlap there, the normal is
+/// time, by no more than the narrower one's width. R being their overlap there, the normal is
 /// that of −∇ ∫ (depth in the first + depth in the second) over R: the sum of each side's normal
 /// times the area of R that lies nearest to it. It is the side's own where a corner meets a side,
 /// turns from one side to the next without a jump, and is equal and opposite for both. The point is
