@@ -45,15 +45,22 @@ const Vector2& direction(std::size_t k) {
   return all.at(k);
 }
 
+// Deeper than what slides within a step: the outline was put there.
+bool isDeepIn(const Outline& outline, const Vector2& point) {
+  constexpr double deep = 0.05;
+  return point.x() < outline.front - deep && point.x() > deep - outline.rear &&
+         std::abs(point.y()) < outline.halfWidth - deep;
+}
+
 }  // namespace
 
-void CrowdedWalls::reduce(std::vector<Segment>& segments) {
+void CrowdedWalls::reduce(std::vector<Segment>& segments, const Outline& outline) {
   double size = smallestCell;
   for (int i = 0; i <= doublings && segments.size() > most; ++i, size *= 2.0) {
     reduced_.clear();
     findCells(segments, size);
     joinCells();
-    addOutsides(segments);
+    addOutsides(segments, outline);
     if (reduced_.size() < segments.size() && (reduced_.size() <= most || i == doublings)) {
       segments.swap(reduced_);
     }
@@ -85,7 +92,7 @@ void CrowdedWalls::findCells(const std::vector<Segment>& segments, double size) 
     if (cells_.empty() || cells_.back().place != place) {
       const std::int64_t column = columnOf(place);
       const std::int64_t row = rowOf(place);
-      cells_.push_back({place, i, i, cells_.size(), {column, column, row, row}});
+      cells_.push_back({place, i, i, cells_.size(), {column, column, row, row}, false});
     }
     cells_.back().last = i + 1;
   }
@@ -126,15 +133,17 @@ void CrowdedWalls::joinCells() {
   }
 }
 
-void CrowdedWalls::addOutsides(const std::vector<Segment>& segments) {
+void CrowdedWalls::addOutsides(const std::vector<Segment>& segments, const Outline& outline) {
   Outside nothing;
   nothing.fill({-std::numeric_limits<double>::infinity(), 0, Vector2::Zero()});
   outsides_.assign(cells_.size(), nothing);
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    Outside& outside = outsides_[crowdOf(i)];
+    const std::size_t crowd = crowdOf(i);
+    Outside& outside = outsides_[crowd];
     for (std::size_t member = cells_[i].first; member < cells_[i].last; ++member) {
       const std::size_t number = members_[member].segment;
       for (const Vector2& point : {segments[number].start, segments[number].end}) {
+        cells_[crowd].isEntered |= isDeepIn(outline, point);
         for (std::size_t k = 0; k < directions; ++k) {
           const double distance = direction(k).dot(point);
           if (distance > outside[k].distance) outside[k] = {distance, number, point};
@@ -143,7 +152,14 @@ void CrowdedWalls::addOutsides(const std::vector<Segment>& segments) {
     }
   }
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    if (cells_[i].crowd == i) addOutside(segments, outsides_[i]);
+    const std::size_t crowd = crowdOf(i);
+    if (!cells_[crowd].isEntered) {
+      if (crowd == i) addOutside(segments, outsides_[i]);
+      continue;
+    }
+    for (std::size_t member = cells_[i].first; member < cells_[i].last; ++member) {
+      reduced_.push_back(segments[members_[member].segment]);
+    }
   }
 }
 

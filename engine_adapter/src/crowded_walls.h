@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "bumper/response/outline.h"
 #include "bumper/response/segment.h"
 
 namespace bumper {
@@ -20,8 +21,9 @@ class CrowdedWalls {
   /// Segments of a surface that lie close together become the convex polygon around them, if there
   /// are too many in all: crowds of up to 0.2 m, or twice that and so on up to 1.6 m until there
   /// are not. Its corners are ends of these segments; what stands out of it does so by less than
-  /// 2 % of the crowd's size. A side has the id of a segment that ends at it.
-  void reduce(std::vector<Segment>& segments);
+  /// 2 % of the crowd's size. A side has the id of a segment that ends at it. A crowd that the
+  /// outline, in its own frame, was put into stays as it is: its parts lead out each by itself.
+  void reduce(std::vector<Segment>& segments, const Outline& outline);
 
  private:
   /// A square in plan, and what lies in it.
@@ -31,6 +33,7 @@ class CrowdedWalls {
     std::size_t last;
     std::size_t crowd;                   ///< a cell, which stands for all of the crowd
     std::array<std::int64_t, 4> extent;  ///< of the crowd: left, right, near, far
+    bool isEntered;                      ///< the outline was put into the crowd
   };
   struct Member {
     std::uint64_t place;
@@ -48,7 +51,7 @@ class CrowdedWalls {
   void joinCells();
   [[nodiscard]] std::size_t crowdOf(std::size_t cell) const;
   void join(std::size_t cell, std::uint64_t place);
-  void addOutsides(const std::vector<Segment>& segments);
+  void addOutsides(const std::vector<Segment>& segments, const Outline& outline);
   void addOutside(const std::vector<Segment>& segments, const Outside& outside);
 
   std::vector<Member> members_;

@@ -164,7 +164,7 @@ void NearbyWalls::collect(const Envelope& vehicle,
     segments_.back().id = static_cast<int>(i);
   }
   if (!wasThere_ && !question.evenIfNoneIsThere) segments_.clear();
-  crowds_.reduce(segments_);
+  crowds_.reduce(segments_, vehicle.outline());
 }
 
 }  // namespace bumper

@@ -102,9 +102,42 @@ TEST_F(Allocation, IsNoticedByTheGuard) {
 }
 
 TEST_F(Allocation, NoneInStepAfterWarmUp) {
-  EXPECT_EQ(allocationsOf({}), 0);
-  EXPECT_EQ(allocationsOf({.skipping = false}), 0);
-  EXPECT_EQ(allocationsOf({.delivery = Delivery::state_reset}), 0);
+  EXPECT_EQ(allocationsOf({.vehiclesCollide = false}), 0);
+  EXPECT_EQ(allocationsOf({.vehiclesCollide = false, .skipping = false}), 0);
+  EXPECT_EQ(allocationsOf({.vehiclesCollide = false, .delivery = Delivery::state_reset}), 0);
+}
+
+// Cars in a row that hit each other and a wall, again and again in the same way.
+TEST_F(Allocation, NoneAmongVehiclesAfterWarmUp) {
+  OdeWorld ode;
+  Responder responder(ode.world);
+  responder.addBarrier(straightWall({30.0, 20.0}, {30.0, -20.0}, 1.0));
+  std::vector<std::unique_ptr<BoxCar>> cars;
+  for (int i = 0; i < 6; ++i) {
+    cars.push_back(std::make_unique<BoxCar>(ode.world));
+    responder.addVehicle(cars.back()->body, cars.back()->parameters);
+  }
+  int allocations = 0;
+  std::size_t events = 0;
+  const SavedState begin = responder.save();
+  for (int round = 0; round < 6; ++round) {
+    for (int i = 0; i < 6; ++i) {
+      BoxCar& car = *cars[static_cast<std::size_t>(i)];
+      car.place({-6.0 * i, 0.2 * i, car.parameters.massCentreHeight}, Eigen::Matrix3d::Identity());
+      car.move({25.0, 0.0, 0.0}, {0.0, 0.0, 0.2 * i});
+    }
+    responder.restore(begin);
+    for (int step = 0; step < 600; ++step) {
+      caught = 0;
+      guarded = true;
+      events += responder.step(0.005).size();
+      guarded = false;
+      if (round >= 2) allocations += caught;
+      dWorldQuickStep(ode.world, 0.005);
+    }
+  }
+  EXPECT_GT(events, 60U);
+  EXPECT_EQ(allocations, 0);
 }
 
 }  // namespace

@@ -121,6 +121,23 @@ double distanceTo(const std::vector<Segment>& sides, const Vector2& point) {
   return least;
 }
 
+// A car in its own frame, beside all of these.
+const Outline besides{VehicleParameters{.mass = 1500.0,
+                                        .yawInertia = 2600.0,
+                                        .massCentreToFront = 2.1,
+                                        .massCentreToRear = 2.5,
+                                        .width = 1.8,
+                                        .massCentreHeight = 0.55}};
+
+TEST(CrowdedWalls, OneThatAVehicleWasPutIntoStaysAsItIs) {
+  std::vector<Segment> given;
+  addRing(given, 300, {0.5, 0.2}, 0.06);
+  std::vector<Segment> kept = given;
+  CrowdedWalls crowds;
+  crowds.reduce(kept, besides);
+  EXPECT_EQ(kept.size(), given.size());
+}
+
 TEST(CrowdedWalls, TheOutsideIsKept) {
   std::vector<Segment> given;
   addRing(given, 3000, {1.0, 2.0}, 0.06);
@@ -132,7 +149,7 @@ TEST(CrowdedWalls, TheOutsideIsKept) {
   given.push_back(wall);
   std::vector<Segment> few = given;
   CrowdedWalls crowds;
-  crowds.reduce(few);
+  crowds.reduce(few, besides);
   EXPECT_LE(few.size(), 2U * 16U + 1U);
   EXPECT_EQ(std::count_if(few.begin(), few.end(),
                           [&](const Segment& each) { return each.start == wall.start; }),
@@ -155,7 +172,7 @@ TEST(CrowdedWalls, SurfacesStayApart) {
   addRing(segments, 200, {1.0, 2.0}, 0.06);
   for (Segment& each : segments) each.surface = each.id % 2;
   CrowdedWalls crowds;
-  crowds.reduce(segments);
+  crowds.reduce(segments, besides);
   EXPECT_LE(segments.size(), 32U);
   for (const Segment& each : segments) EXPECT_EQ(each.surface, each.id % 2);
 }
@@ -164,7 +181,7 @@ TEST(CrowdedWalls, AFewAreLeftAlone) {
   std::vector<Segment> segments;
   addRing(segments, static_cast<int>(CrowdedWalls::most), {1.0, 2.0}, 0.06);
   CrowdedWalls crowds;
-  crowds.reduce(segments);
+  crowds.reduce(segments, besides);
   ASSERT_EQ(segments.size(), CrowdedWalls::most);
   EXPECT_EQ(segments[7].id, 7);
 }

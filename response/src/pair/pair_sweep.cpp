@@ -18,6 +18,9 @@ constexpr double closed = 1e-11;
 constexpr int mostAdvances = 4;
 constexpr double nearEnough = 0.05;
 
+// A guess goes no further than so many safe advances: not to a second touch beyond the first.
+constexpr double farthestGuess = 3.0;
+
 // An advance may pass a touch by so much, m: it is then found between both looks. What is no deeper
 // and ends before the next look is none.
 constexpr double unseenTouch = 1e-7;
@@ -131,7 +134,8 @@ double timeOfTouch(const PairBody& first, const PairBody& second, double until) 
       if (!(flight.at(until).distance < 0.0)) return never;
       next = until;
     } else if (look >= mostAdvances && now.distance < nearEnough && rate > 0.0) {
-      const double in = std::min(time + 1.5 * now.distance / rate, until);
+      const double in =
+          std::min({time + 1.5 * now.distance / rate, time + farthestGuess * (next - time), until});
       const double depth = -flight.at(in).distance;
       if (depth > 0.0) return flight.touchBetween(time, now.distance, in, depth);
     }
