@@ -14,13 +14,6 @@ namespace {
 // The search ends this close before the touch, m: within touchTolerance, and beyond rounding.
 constexpr double closed = 1e-11;
 
-// After so many advances the rest is found by interpolation, m away at most.
-constexpr int mostAdvances = 4;
-constexpr double nearEnough = 0.05;
-
-// A guess goes no further than so many safe advances: not to a second touch beyond the first.
-constexpr double farthestGuess = 3.0;
-
 // An advance may pass a touch by so much, m: it is then found between both looks. What is no deeper
 // and ends before the next look is none.
 constexpr double unseenTouch = 1e-7;
@@ -28,43 +21,79 @@ constexpr double unseenTouch = 1e-7;
 // Bounds the work where they slide past each other.
 constexpr int mostLooks = 200;
 
+// The side of one of two outlines that separates them best.
+struct SeparatingSide {
+  PairSeparation apart{.distance = -std::numeric_limits<double>::infinity()};
+  bool ofFirst = false;
+};
+
+SeparatingSide separatingSide(const Outline& first, const Placement& firstAt, const Outline& second,
+                              const Placement& secondAt) {
+  const PlanRectangle own = first.enlarged(0.0);
+  const PlanRectangle other = second.enlarged(0.0);
+  const Vector2 between = secondAt.position + secondAt.turned(other.middle) - firstAt.position -
+                          firstAt.turned(own.middle);
+  // How the axes of one project on those of the other.
+  const double along = std::abs(firstAt.cosine * secondAt.cosine + firstAt.sine * secondAt.sine);
+  const double across = std::abs(firstAt.cosine * secondAt.sine - firstAt.sine * secondAt.cosine);
+  SeparatingSide best;
+  const auto consider = [&](const Vector2& axis, double reach, bool ofFirst) {
+    const double way = axis.dot(between);
+    const double distance = std::abs(way) - reach;
+    if (distance > best.apart.distance) {
+      best = {.apart = {.distance = distance, .normal = way > 0.0 ? Vector2(-axis) : axis},
+              .ofFirst = ofFirst};
+    }
+  };
+  const auto bySides = [&](const Placement& at, const Vector2& half, const Vector2& others,
+                           bool ofFirst) {
+    consider({at.cosine, at.sine}, half.x() + along * others.x() + across * others.y(), ofFirst);
+    consider({-at.sine, at.cosine}, half.y() + across * others.x() + along * others.y(), ofFirst);
+  };
+  bySides(secondAt, other.half, own.half, false);
+  bySides(firstAt, own.half, other.half, true);
+  return best;
+}
+
 struct PairFlight {
   const PairBody& first;
   const PairBody& second;
+  double until;
 
-  [[nodiscard]] PairSeparation at(double time) const {
-    return separation(first.outline, first.placementAfter(time), second.outline,
-                      second.placementAfter(time));
+  [[nodiscard]] SeparatingSide at(double time) const {
+    return separatingSide(first.outline, first.placementAfter(time), second.outline,
+                          second.placementAfter(time));
   }
 
-  // For how long they certainly stay apart, or overlap no deeper than `unseenTouch`, along a fixed
-  // direction that separates them now.
-  [[nodiscard]] double apartFor(const PairSeparation& now, double time) const {
-    struct Corner {
-      double height;
-      double rate;
-      double acceleration;
-    };
-    const auto cornersOf = [&](const PairBody& body) {
-      const Placement at = body.placementAfter(time);
-      const double turning = body.body.motion.yawRate;
-      std::array<Corner, 4> result;
-      const std::array<Vector2, 4> corners = body.outline.corners();
-      for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Vector2 arm = at.turned(corners[i]);
-        result[i] = {.height = now.normal.dot(at.position + arm),
-                     .rate = now.normal.dot(body.body.motion.velocity + turning * turnedLeft(arm)),
-                     .acceleration = turning * turning * arm.norm()};
-      }
-      return result;
-    };
+  // For how long they certainly stay apart, or overlap no deeper than `unseenTouch`: until a corner
+  // of one can reach the line of the side of the other, which turns.
+  [[nodiscard]] double apartFor(const SeparatingSide& side, double time) const {
+    const PairBody& owner = side.ofFirst ? first : second;
+    const PairBody& other = side.ofFirst ? second : first;
+    const Vector2 out = side.ofFirst ? Vector2(-side.apart.normal) : side.apart.normal;
+    const PlanarMotion& motion = owner.body.motion;
+    const PlanarMotion& others = other.body.motion;
+    const Placement ownerAt = owner.placementAfter(time);
+    const Placement at = other.placementAfter(time);
+    const double turning = std::abs(motion.yawRate);
+    const double spin = std::abs(others.yawRate);
+    const double speed = (others.velocity - motion.velocity).norm() + spin * other.outline.radius();
+    std::array<double, 4> heights;
+    std::array<Vector2, 4> arms = other.outline.corners();
+    for (std::size_t i = 0; i < arms.size(); ++i) {
+      arms[i] = at.turned(arms[i]);
+      heights[i] = out.dot(at.position + arms[i] - ownerAt.position);
+    }
+    const double reach = *std::min_element(heights.begin(), heights.end()) - side.apart.distance;
     double wait = never;
-    const std::array<Corner, 4> below = cornersOf(second);
-    for (const Corner& a : cornersOf(first)) {
-      for (const Corner& b : below) {
-        wait = std::min(wait, leastTime(a.height - b.height + unseenTouch, b.rate - a.rate,
-                                        a.acceleration + b.acceleration));
-      }
+    for (std::size_t i = 0; i < arms.size(); ++i) {
+      const Vector2 away = at.position + arms[i] - ownerAt.position;
+      const Vector2 velocity =
+          others.velocity + others.yawRate * turnedLeft(arms[i]) - motion.velocity;
+      const double rate = out.dot(velocity) + motion.yawRate * turnedLeft(out).dot(away);
+      const double acceleration = turning * turning * (away.norm() + speed * (until - time)) +
+                                  2.0 * turning * speed + spin * spin * arms[i].norm();
+      wait = std::min(wait, leastTime(heights[i] - reach + unseenTouch, -rate, acceleration));
     }
     return wait;
   }
@@ -76,7 +105,7 @@ struct PairFlight {
       const double share = std::clamp(distance / (distance + weight * depth), 1e-3, 1.0 - 1e-9);
       const double time = apart + share * (in - apart);
       if (time <= apart || time >= in) break;
-      const double now = at(time).distance;
+      const double now = at(time).apart.distance;
       if (now > 0.0) {
         apart = time;
         distance = now;
@@ -96,53 +125,25 @@ struct PairFlight {
 
 PairSeparation separation(const Outline& first, const Placement& firstAt, const Outline& second,
                           const Placement& secondAt) {
-  const PlanRectangle own = first.enlarged(0.0);
-  const PlanRectangle other = second.enlarged(0.0);
-  const Vector2 between = secondAt.position + secondAt.turned(other.middle) - firstAt.position -
-                          firstAt.turned(own.middle);
-  // How the axes of one project on those of the other.
-  const double along = std::abs(firstAt.cosine * secondAt.cosine + firstAt.sine * secondAt.sine);
-  const double across = std::abs(firstAt.cosine * secondAt.sine - firstAt.sine * secondAt.cosine);
-  PairSeparation best{.distance = -std::numeric_limits<double>::infinity()};
-  const auto consider = [&](const Vector2& axis, double reach) {
-    const double way = axis.dot(between);
-    const double distance = std::abs(way) - reach;
-    if (distance > best.distance) {
-      best = {.distance = distance, .normal = way > 0.0 ? Vector2(-axis) : axis};
-    }
-  };
-  const auto bySides = [&](const Placement& at, const Vector2& half, const Vector2& others) {
-    consider({at.cosine, at.sine}, half.x() + along * others.x() + across * others.y());
-    consider({-at.sine, at.cosine}, half.y() + across * others.x() + along * others.y());
-  };
-  bySides(secondAt, other.half, own.half);
-  bySides(firstAt, own.half, other.half);
-  return best;
+  return separatingSide(first, firstAt, second, secondAt).apart;
 }
 
 double timeOfTouch(const PairBody& first, const PairBody& second, double until) {
-  const PairFlight flight{.first = first, .second = second};
+  const PairFlight flight{.first = first, .second = second, .until = until};
   double time = 0.0;
-  PairSeparation now = flight.at(time);
-  if (now.distance > until * fastestClosing(first, second) + unseenTouch) return never;
-  double rate = 0.0;
+  SeparatingSide now = flight.at(time);
+  if (now.apart.distance > until * fastestClosing(first, second) + unseenTouch) return never;
   for (int look = 0; look < mostLooks; ++look) {
-    if (now.distance <= closed) return time;
+    if (now.apart.distance <= closed) return time;
     double next = time + flight.apartFor(now, time);
-    if (next > until) {
-      // Not even a touch that the advance would pass?
-      if (!(flight.at(until).distance < 0.0)) return never;
-      next = until;
-    } else if (look >= mostAdvances && now.distance < nearEnough && rate > 0.0) {
-      const double in =
-          std::min({time + 1.5 * now.distance / rate, time + farthestGuess * (next - time), until});
-      const double depth = -flight.at(in).distance;
-      if (depth > 0.0) return flight.touchBetween(time, now.distance, in, depth);
+    // Is there a touch that the advance would pass?
+    if (next > until) next = until;
+    if (!(next > time)) return next < until ? time : never;
+    const SeparatingSide then = flight.at(next);
+    if (then.apart.distance < 0.0) {
+      return flight.touchBetween(time, now.apart.distance, next, -then.apart.distance);
     }
-    if (!(next > time)) return time;
-    const PairSeparation then = flight.at(next);
-    if (then.distance < 0.0) return flight.touchBetween(time, now.distance, next, -then.distance);
-    rate = (now.distance - then.distance) / (next - time);
+    if (!(next < until)) return then.apart.distance <= closed ? until : never;
     time = next;
     now = then;
   }
