@@ -39,6 +39,8 @@ struct Vehicle {
     traveller.rotation = dBodyGetRotation(chassis);
     traveller.velocity = dBodyGetLinearVel(chassis);
     traveller.turning = dBodyGetAngularVel(chassis);
+    traveller.force = dBodyGetForce(chassis);
+    traveller.forceAllowed = Traffic::accelerationAllowed * itsParameters.mass;
     const VehiclePose pose = bodies.readPose();
     const dReal* at = traveller.position;
     const Eigen::Vector3d away = pose.massCentre - Eigen::Vector3d(at[0], at[1], at[2]);

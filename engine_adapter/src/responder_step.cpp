@@ -256,6 +256,8 @@ void Responder::Implementation::deliver(Vehicle& vehicle, double h) {
   VehicleMemory& memory = vehicle.memory;
   if (memory.pulse.isEmpty() && vehicle.guards.isEmpty()) return;
   const PlanarForce force = memory.pulse.take(h);
+  // What is still pending is delivered in the next step, wherever it is then.
+  if (!memory.pulse.isEmpty()) vehicle.freeSpace.leave();
   const PlanarImpulse impulse{.linear = h * force.force, .angular = h * force.yawMoment};
   if (!impulse.linear.allFinite() || !std::isfinite(impulse.angular)) {
     memory.pulse.drop();

@@ -20,7 +20,7 @@ constexpr double nearby = 12.0;
 // It is looked at again after this way at the latest, m, so that its cell is right to that.
 constexpr double mostWay = 8.0;
 
-// What one step may add to a motion beyond the limits, m.
+// What one step may add to a motion beyond the limits, m: the acceleration allowed, at 20 ms.
 constexpr double margin = 0.1;
 
 // A speed, m/s, and a coordinate, m, beyond these are errors of the application's.
@@ -33,6 +33,14 @@ constexpr double fasterAfterHit = 2.0;
 // The gap that two may close in a step at these speeds or at those after a blow, m.
 double reachOf(double closing, double h) {
   return guardDistance(0.5 * fasterAfterHit * closing, h);
+}
+
+// By how much a known force changes its speed in a step, m/s.
+double pushOf(const Traveller& traveller, double h) {
+  const double force = std::hypot(traveller.force[0], traveller.force[1]);
+  const double change =
+      h * Traffic::accelerationAllowed * force / std::max(traveller.forceAllowed, 1e-9);
+  return change < mostSpeed ? change : mostSpeed;
 }
 
 Placement placementOf(const Traveller& traveller) {
@@ -109,7 +117,7 @@ void Traffic::place(Traveller& traveller) {
   traveller.isListed = true;
 }
 
-void Traffic::refresh(Traveller& traveller, double now) {
+void Traffic::refresh(Traveller& traveller, double now, double h) {
   traveller.x = traveller.position[0];
   traveller.y = traveller.position[1];
   traveller.looked = now;
@@ -118,7 +126,7 @@ void Traffic::refresh(Traveller& traveller, double now) {
   traveller.yawRate = traveller.turning[2];
   const double speed = std::min(std::hypot(traveller.velocityX, traveller.velocityY), mostSpeed);
   traveller.allowance = shareAllowed * speed + speedAllowance;
-  traveller.companySpeed = speed + traveller.allowance;
+  traveller.companySpeed = speed + traveller.allowance + pushOf(traveller, h);
   traveller.apartUntil = now + mostWay / traveller.companySpeed;
   place(traveller);
 }
@@ -162,7 +170,7 @@ void Traffic::look(std::span<Traveller* const> some, double now, double h) {
   pairs_.clear();
   queue_.clear();
   for (Traveller* each : some) {
-    refresh(*each, now);
+    refresh(*each, now, h);
     enqueue(*each);
   }
   for (std::size_t next = 0; next < queue_.size(); ++next) {

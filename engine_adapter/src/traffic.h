@@ -22,6 +22,8 @@ struct Traveller {
   const dReal* rotation = nullptr;
   const dReal* velocity = nullptr;
   const dReal* turning = nullptr;
+  const dReal* force = nullptr;
+  double forceAllowed = 0.0;  ///< on the chassis, N
   Outline outline{VehicleParameters{}};
   Vector2 massCentre = Vector2::Zero();  ///< from the chassis' position, in its axes, m
   double radius = 0.0;  ///< of a circle around that position that holds the outline, m
@@ -58,11 +60,14 @@ class Traffic {
   using Pair = std::pair<Traveller*, Traveller*>;
   [[nodiscard]] std::span<const Pair> pairs() const { return pairs_; }
 
+  /// By forces on the chassis that are known before a step, m/s². More may close a gap in one step.
+  static constexpr double accelerationAllowed = 200.0;
+
  private:
   [[nodiscard]] Traveller*& bucketOf(long x, long y);
   static void unlist(Traveller& traveller);
   void place(Traveller& traveller);
-  void refresh(Traveller& traveller, double now);
+  void refresh(Traveller& traveller, double now, double h);
   void meet(Traveller& one, Traveller& other, double now, double h);
   void enqueue(Traveller& traveller);
 
@@ -88,6 +93,8 @@ inline bool Traffic::isApart(const Traveller& traveller, double now, double h) {
   const double allowed = traveller.allowance;
   return changeX * changeX + changeY * changeY <= allowed * allowed &&
          wayX * wayX + wayY * wayY <= allowed * allowed * age * age + 1e-6 &&
+         traveller.force[0] * traveller.force[0] + traveller.force[1] * traveller.force[1] <=
+             traveller.forceAllowed * traveller.forceAllowed &&
          std::abs(traveller.turning[2] - traveller.yawRate) <= turningAllowance;
 }
 
