@@ -125,7 +125,7 @@ struct Responder::Implementation {
   [[nodiscard]] VehicleHit* hitBetween(Vehicle& a, Vehicle& b) const;
   [[nodiscard]] bool isPassing(Vehicle& a, Vehicle& b) const;
   [[nodiscard]] bool isNear(const Vehicle& vehicle, const ContactPartner& with) const;
-  [[nodiscard]] bool isNear(const Vehicle& a, const Vehicle& b) const;
+  [[nodiscard]] static bool isNear(const Vehicle& a, const Vehicle& b);
 
   void deliver(Vehicle& vehicle, double h);
 

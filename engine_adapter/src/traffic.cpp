@@ -154,7 +154,8 @@ void Traffic::meet(Traveller& one, Traveller& other, double now, double h) {
   other.apartUntil = std::min(other.apartUntil, until);
   const double company = std::max(one.companySpeed, other.companySpeed);
   if (gap > reachOf(one.companySpeed + other.companySpeed, h)) return;
-  pairs_.push_back(std::minmax(&one, &other));
+  Traveller* const low = std::min(&one, &other);
+  pairs_.emplace_back(low, low == &one ? &other : &one);
   for (Traveller* each : {&one, &other}) {
     if (each->companySpeed < company) {
       each->companySpeed = company;
@@ -173,8 +174,9 @@ void Traffic::look(std::span<Traveller* const> some, double now, double h) {
     refresh(*each, now, h);
     enqueue(*each);
   }
-  for (std::size_t next = 0; next < queue_.size(); ++next) {
-    Traveller& one = *queue_[next];
+  // It grows meanwhile.
+  for (std::size_t next = 0; next < queue_.size();) {
+    Traveller& one = *queue_[next++];
     one.isQueued = false;
     const double reach = reachOf(2.0 * one.companySpeed, h);
     const long rings = 1 + static_cast<long>(std::min(2.0 * reach / cell_, 8.0));

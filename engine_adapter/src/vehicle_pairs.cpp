@@ -359,7 +359,7 @@ bool Responder::Implementation::isPassing(Vehicle& a, Vehicle& b) const {
   return hit != nullptr && time < hit->passableUntil;
 }
 
-bool Responder::Implementation::isNear(const Vehicle& a, const Vehicle& b) const {
+bool Responder::Implementation::isNear(const Vehicle& a, const Vehicle& b) {
   const VehiclePose pose = a.bodies.readPose();
   const VehiclePose others = b.bodies.readPose();
   const PairPlane plane(pose, others);

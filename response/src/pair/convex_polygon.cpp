@@ -1,6 +1,7 @@
 #include "convex_polygon.h"
 
 #include <algorithm>
+#include <span>
 
 namespace bumper {
 
@@ -58,8 +59,8 @@ std::array<Vector2, 2> ConvexPolygon::endsAlong(const Vector2& direction) const 
   const auto isLess = [&](const Vector2& a, const Vector2& b) {
     return direction.dot(a) < direction.dot(b);
   };
-  const auto last = corners_.begin() + static_cast<std::ptrdiff_t>(count_);
-  const auto [low, high] = std::minmax_element(corners_.begin(), last, isLess);
+  const std::span<const Vector2> corners(corners_.data(), count_);
+  const auto [low, high] = std::minmax_element(corners.begin(), corners.end(), isLess);
   return {*low, *high};
 }
 

@@ -28,6 +28,19 @@ double share(const PlanarBody& body, const Vector2& normal, const Vector2& arm,
          cross(arm, normal) * cross(otherArm, otherNormal) / body.yawInertia;
 }
 
+// By how much an impulse at one contact changes the separating speed at another, 1/kg.
+double coupling(std::span<const PlanarBody> bodies, const JointContact& a, const JointContact& b) {
+  double sum = 0.0;
+  const auto add = [&](std::size_t body, const Vector2& normal, const Vector2& arm) {
+    if (body == JointContact::none) return;
+    if (b.body == body) sum += share(bodies[body], normal, arm, b.normal, b.arm);
+    if (b.otherBody == body) sum += share(bodies[body], normal, arm, b.otherNormal, b.otherArm);
+  };
+  add(a.body, a.normal, a.arm);
+  add(a.otherBody, a.otherNormal, a.otherArm);
+  return sum;
+}
+
 void act(std::span<PlanarBody> bodies, const JointContact& contact, double impulse) {
   const auto on = [&](std::size_t body, const Vector2& normal, const Vector2& arm) {
     const Vector2 linear = impulse * normal;
@@ -40,20 +53,6 @@ void act(std::span<PlanarBody> bodies, const JointContact& contact, double impul
 }
 
 }  // namespace
-
-// By how much an impulse at one contact changes the separating speed at another, 1/kg.
-double JointApproach::coupling(std::span<const PlanarBody> bodies, const JointContact& a,
-                               const JointContact& b) const {
-  double sum = 0.0;
-  const auto add = [&](std::size_t body, const Vector2& normal, const Vector2& arm) {
-    if (body == JointContact::none) return;
-    if (b.body == body) sum += share(bodies[body], normal, arm, b.normal, b.arm);
-    if (b.otherBody == body) sum += share(bodies[body], normal, arm, b.otherNormal, b.otherArm);
-  };
-  add(a.body, a.normal, a.arm);
-  add(a.otherBody, a.otherNormal, a.otherArm);
-  return sum;
-}
 
 // Of the active contacts; false if the last one depends on the others.
 bool JointApproach::factorise(std::span<const PlanarBody> bodies,

@@ -39,8 +39,6 @@ class JointApproach {
   static constexpr std::size_t mostActive = 128;
 
  private:
-  [[nodiscard]] double coupling(std::span<const PlanarBody> bodies, const JointContact& a,
-                                const JointContact& b) const;
   bool balance(std::span<const PlanarBody> bodies, std::span<const JointContact> contacts);
   bool factorise(std::span<const PlanarBody> bodies, std::span<const JointContact> contacts);
 

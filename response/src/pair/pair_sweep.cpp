@@ -12,7 +12,7 @@ namespace bumper {
 namespace {
 
 // The search ends this close before the touch, m: within touchTolerance, and beyond rounding.
-constexpr double closed = 1e-11;
+constexpr double touching = 1e-11;
 
 // An advance may pass a touch by so much, m: it is then found between both looks. What is no deeper
 // and ends before the next look is none.
@@ -101,7 +101,7 @@ struct PairFlight {
   // Between a time when they are apart and one when they overlap: when they touch.
   [[nodiscard]] double touchBetween(double apart, double distance, double in, double depth) const {
     double weight = 1.0;  // Illinois
-    for (int round = 0; round < 100 && distance > closed; ++round) {
+    for (int round = 0; round < 100 && distance > touching; ++round) {
       const double share = std::clamp(distance / (distance + weight * depth), 1e-3, 1.0 - 1e-9);
       const double time = apart + share * (in - apart);
       if (time <= apart || time >= in) break;
@@ -114,7 +114,7 @@ struct PairFlight {
         in = time;
         depth = -now;
         weight = 1.0;
-        if (depth <= closed) return time;
+        if (depth <= touching) return time;
       }
     }
     return apart;
@@ -134,7 +134,7 @@ double timeOfTouch(const PairBody& first, const PairBody& second, double until) 
   SeparatingSide now = flight.at(time);
   if (now.apart.distance > until * fastestClosing(first, second) + unseenTouch) return never;
   for (int look = 0; look < mostLooks; ++look) {
-    if (now.apart.distance <= closed) return time;
+    if (now.apart.distance <= touching) return time;
     double next = time + flight.apartFor(now, time);
     // Is there a touch that the advance would pass?
     if (next > until) next = until;
@@ -143,7 +143,7 @@ double timeOfTouch(const PairBody& first, const PairBody& second, double until) 
     if (then.apart.distance < 0.0) {
       return flight.touchBetween(time, now.apart.distance, next, -then.apart.distance);
     }
-    if (!(next < until)) return then.apart.distance <= closed ? until : never;
+    if (!(next < until)) return then.apart.distance <= touching ? until : never;
     time = next;
     now = then;
   }

@@ -131,8 +131,8 @@ void saveScene(const Scene& scene, const std::filesystem::path& file) {
       outputs.push_back(std::make_unique<OutputFile>(place));
       outputs.back()->write({{static_cast<const char*>(blob->data), blob->size}});
     }
-    for (auto output = outputs.rbegin(); output != outputs.rend(); ++output)
-      (*output)->moveToPlace();
+    // The file itself is the first one, and comes last.
+    for (; !outputs.empty(); outputs.pop_back()) outputs.back()->moveToPlace();
   } catch (const std::exception& error) {
     throw fileError(file, std::string("cannot be written: ") + error.what());
   }
