@@ -281,8 +281,9 @@ void Responder::Implementation::addPairGuards(const Meeting& meeting, const Step
   const double sign = swapped ? -1.0 : 1.0;
   Vehicle& vehicle = swapped ? *meeting.second : *meeting.first;
   Vehicle& other = swapped ? *meeting.first : *meeting.second;
-  for (const SpeculativePairContact& contact :
-       speculativePairContacts(own, its, guardDistance(speed, h), depth, h).all()) {
+  const SpeculativePairContacts near =
+      speculativePairContacts(own, its, guardDistance(speed, h), depth, h);
+  for (const SpeculativePairContact& contact : near.all()) {
     const bool slides =
         contact.gap <= slidingGap && settings.frictionKind == Friction::Kind::coulomb;
     const Vector2& arm = swapped ? contact.otherArm : contact.arm;

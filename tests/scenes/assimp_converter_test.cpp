@@ -11,6 +11,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace bumper {
@@ -97,7 +98,8 @@ TEST(AssimpConverter, StaysWithinTheBudget) {
   less.names = 49;
   expectLimit(less, "SceneBudget::names allows 49");
   // Vertices that no face uses count too.
-  scene->mMeshes[0]->mVertices = nullptr;
+  const std::unique_ptr<aiVector3D[]> replaced(
+      std::exchange(scene->mMeshes[0]->mVertices, nullptr));
   scene->mMeshes[0]->mNumVertices = 1'000'000'000;
   expectLimit(SceneBudget{}, "SceneBudget::triangles allows 5000000");
 }
