@@ -74,6 +74,7 @@ void expectSame(const ImpactEvent& actual, const ImpactEvent& expected) {
   EXPECT_EQ(actual.phase, expected.phase);
   EXPECT_EQ(actual.vehicle, expected.vehicle);
   EXPECT_EQ(actual.barrier, expected.barrier);
+  EXPECT_EQ(actual.otherVehicle, expected.otherVehicle);
   EXPECT_EQ(actual.triangle, expected.triangle);
   EXPECT_EQ(actual.material, expected.material);
   expectSameVector(actual.contact, expected.contact, "contact");
@@ -173,6 +174,7 @@ ImpactEvent anyImpact(double time, std::string_view vehicle, AnyNumbers& numbers
   event.vehicle = vehicle;
   event.barrier = "rail, \"north\"\n\t\\ \u00e4";
   event.triangle = numbers.of({-1, 0, 2147483647});
+  event.otherVehicle = "lorry, \"south\"";
   event.material = "";
   event.contact = {numbers(), numbers(), numbers()};
   event.normal = Eigen::Vector3d(std::sin(time), std::cos(time), 0.1).normalized();

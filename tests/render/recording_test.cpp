@@ -50,7 +50,10 @@ TEST(Recording, ownsTheNamesOfItsEvents) {
     ImpactEvent event = eventOf(vehicle);
     event.barrier = barrier;
     event.material = material;
+    std::string other = "another car with a name too long to be kept inside a string object";
+    event.otherVehicle = other;
     original.addImpact(event);
+    other.assign(other.size(), '-');
     vehicle.assign(vehicle.size(), '-');
     barrier.assign(barrier.size(), '-');
     material.assign(material.size(), '-');
@@ -60,6 +63,7 @@ TEST(Recording, ownsTheNamesOfItsEvents) {
   EXPECT_THAT(std::string(event.vehicle), HasSubstr("a car with a name"));
   EXPECT_THAT(std::string(event.barrier), HasSubstr("a barrier with a name"));
   EXPECT_THAT(std::string(event.material), HasSubstr("a material with a name"));
+  EXPECT_THAT(std::string(event.otherVehicle), HasSubstr("another car with a name"));
 }
 
 TEST(Recording, keepsEventsAsTheyAre) {

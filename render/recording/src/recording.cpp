@@ -14,14 +14,19 @@ double heading(const Eigen::Quaterniond& orientation) {
 }
 
 RecordedImpact::RecordedImpact(const ImpactEvent& event)
-    : event_(event), vehicle_(event.vehicle), barrier_(event.barrier), material_(event.material) {
-  event_.vehicle = event_.barrier = event_.material = {};
+    : event_(event),
+      vehicle_(event.vehicle),
+      barrier_(event.barrier),
+      otherVehicle_(event.otherVehicle),
+      material_(event.material) {
+  event_.vehicle = event_.barrier = event_.otherVehicle = event_.material = {};
 }
 
 ImpactEvent RecordedImpact::event() const {
   ImpactEvent result = event_;
   result.vehicle = vehicle_;
   result.barrier = barrier_;
+  result.otherVehicle = otherVehicle_;
   result.material = material_;
   return result;
 }

@@ -390,6 +390,10 @@ void appendImpact(std::string& text, const ImpactEvent& event) {
     appendKey(text, name);
     text += jsonString(words);
   }
+  if (!event.otherVehicle.empty()) {
+    appendKey(text, "otherVehicle");
+    text += jsonString(event.otherVehicle);
+  }
   appendKey(text, "triangle");
   append(text, event.triangle);
   appendKey(text, "contact");
@@ -508,6 +512,9 @@ RecordedImpact parseImpact(std::string_view line, const RecordingLimits& limits)
     event.time = timeOf(object.at("time").get<double>(), limits);
     event.vehicle = object.at("vehicle").get_ref<const std::string&>();
     event.barrier = object.at("barrier").get_ref<const std::string&>();
+    if (const auto other = object.find("otherVehicle"); other != object.end()) {
+      event.otherVehicle = other->get_ref<const std::string&>();
+    }
     event.material = object.at("material").get_ref<const std::string&>();
     event.phase = oneOf(phases, object.at("phase"), "phase");
     event.law = oneOf(laws, object.at("law"), "law");

@@ -40,6 +40,7 @@ class RecordedImpact {
   ImpactEvent event_;
   std::string vehicle_;
   std::string barrier_;
+  std::string otherVehicle_;
   std::string material_;
 };
 
