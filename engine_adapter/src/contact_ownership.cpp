@@ -25,64 +25,58 @@ struct OwnedPair {
   explicit operator bool() const { return vehicle != nullptr; }
 };
 
-OwnedPair ordered(const Responder::Implementation& responder, dGeomID vehicleGeom,
-                  dGeomID barrierGeom) {
-  if (vehicleGeom == nullptr || dGeomIsSpace(vehicleGeom) != 0) return {};
-  const dBodyID body = dGeomGetBody(vehicleGeom);
-  if (body == nullptr) return {};
-  const auto barrier = responder.barrierOfGeom.find(barrierGeom);
-  if (barrier == responder.barrierOfGeom.end() || !barrier->second->isStill(barrierGeom)) return {};
-  const auto vehicle = responder.vehicleOfBody.find(body);
-  if (vehicle == responder.vehicleOfBody.end() || !vehicle->second->isUpright()) return {};
-  return {.vehicle = vehicle->second, .body = body, .barrier = barrier->second};
-}
-
-const Vehicle* vehicleOf(const Responder::Implementation& responder, dGeomID geom) {
+/// The vehicle that a geom is a part of; null if there is none, or it leans too far to own
+/// contacts.
+const Vehicle* uprightVehicle(const Responder::Implementation& responder, dGeomID geom) {
   if (geom == nullptr || dGeomIsSpace(geom) != 0) return nullptr;
   const dBodyID body = dGeomGetBody(geom);
   if (body == nullptr) return nullptr;
   const auto vehicle = responder.vehicleOfBody.find(body);
-  return vehicle != responder.vehicleOfBody.end() ? vehicle->second : nullptr;
+  const bool isOne = vehicle != responder.vehicleOfBody.end() && vehicle->second->isUpright();
+  return isOne ? vehicle->second : nullptr;
+}
+
+OwnedPair ordered(const Responder::Implementation& responder, dGeomID vehicleGeom,
+                  dGeomID barrierGeom) {
+  const auto barrier = responder.barrierOfGeom.find(barrierGeom);
+  if (barrier == responder.barrierOfGeom.end() || !barrier->second->isStill(barrierGeom)) return {};
+  const Vehicle* const vehicle = uprightVehicle(responder, vehicleGeom);
+  if (vehicle == nullptr) return {};
+  return {.vehicle = vehicle, .body = dGeomGetBody(vehicleGeom), .barrier = barrier->second};
 }
 
 /// Two vehicles that meet at the heights of their bands: their contacts are Bumper's, but for those
 /// of one that lies on the other.
 struct OwnedVehicles {
-  explicit OwnedVehicles(const Responder::Implementation& responder, dGeomID a, dGeomID b) {
-    if (!responder.hasPairs()) return;
-    const Vehicle* const one = vehicleOf(responder, a);
-    const Vehicle* const other = vehicleOf(responder, b);
-    if (one == nullptr || other == nullptr || one == other || !one->isUpright() ||
-        !other->isUpright()) {
-      return;
-    }
-    const VehiclePose pose = one->bodies.readPose();
-    const VehiclePose others = other->bodies.readPose();
-    const PairPlane plane(pose, others);
-    if (!bandsOverlap(plane, pose, one->envelope, others, other->envelope) ||
-        !responder.mayMeet(*one, *other)) {
-      return;
-    }
-    meet = true;
-    normal = plane.normal();
-    const double higher = std::abs(normal.dot(others.massCentre - pose.massCentre));
-    areLevel =
-        higher < levelShare * std::min(one->envelope.bandHeight(), other->envelope.bandHeight());
-  }
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< of the plane in which they meet
+  bool areLevel = false;                          ///< neither can lie on the other
 
   [[nodiscard]] bool own(const Eigen::Vector3d& contactNormal) const {
-    return meet && std::abs(normal.dot(contactNormal)) < steepest;
+    // A contact nearer the vertical, as a cosine, is one of a vehicle that lies on another.
+    constexpr double steepest = 0.7071;
+    return std::abs(up.dot(contactNormal)) < steepest;
   }
-
-  /// A contact nearer the vertical, as a cosine, is one of a vehicle that lies on another.
-  static constexpr double steepest = 0.7071;
-  /// By so much of a band's height one may stand higher than the other and cannot lie on it.
-  static constexpr double levelShare = 0.5;
-
-  bool meet = false;
-  bool areLevel = false;
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
 };
+
+std::optional<OwnedVehicles> vehiclesOf(const Responder::Implementation& responder, dGeomID a,
+                                        dGeomID b) {
+  if (!responder.hasPairs()) return std::nullopt;
+  const Vehicle* const one = uprightVehicle(responder, a);
+  const Vehicle* const other = one != nullptr ? uprightVehicle(responder, b) : nullptr;
+  if (other == nullptr || one == other) return std::nullopt;
+  const VehiclePose pose = one->bodies.readPose();
+  const VehiclePose others = other->bodies.readPose();
+  const PairPlane plane(pose, others);
+  if (!bandsOverlap(plane, pose, one->envelope, others, other->envelope) ||
+      !responder.mayMeet(*one, *other)) {
+    return std::nullopt;
+  }
+  // By so much of a band's height one may stand higher than the other and cannot lie on it.
+  constexpr double levelShare = 0.5;
+  const double higher = std::abs(plane.normal().dot(others.massCentre - pose.massCentre));
+  const double band = std::min(one->envelope.bandHeight(), other->envelope.bandHeight());
+  return OwnedVehicles{.up = plane.normal(), .areLevel = higher < levelShare * band};
+}
 
 /// The pair, if Bumper may own contacts of it.
 OwnedPair pairOf(const Responder::Implementation& responder, dGeomID a, dGeomID b) {
@@ -138,12 +132,12 @@ class ContactPairs {
     dGeomID const first = carrierOf(first_, swapped ? b_ : a_);
     dGeomID const second = carrierOf(second_, swapped ? a_ : b_);
     pair_ = bumper::pairOf(responder_, first, second);
-    vehicles_ = OwnedVehicles(responder_, first, second);
+    vehicles_ = vehiclesOf(responder_, first, second);
     if (pair_) pose_ = pair_.vehicle->bodies.readPose();
     return pair_;
   }
   /// Of the last contact.
-  [[nodiscard]] const OwnedVehicles& vehicles() const { return vehicles_; }
+  [[nodiscard]] const std::optional<OwnedVehicles>& vehicles() const { return vehicles_; }
   /// Of the last pair's vehicle.
   [[nodiscard]] const VehiclePose& pose() const { return pose_; }
 
@@ -166,7 +160,7 @@ class ContactPairs {
   dGeomID first_ = nullptr;
   dGeomID second_ = nullptr;
   OwnedPair pair_;
-  OwnedVehicles vehicles_{responder_, nullptr, nullptr};
+  std::optional<OwnedVehicles> vehicles_;
   VehiclePose pose_;
 };
 
@@ -211,8 +205,7 @@ bool isOurs(const OwnedPair& pair, const VehiclePose& pose, const dContactGeom& 
 }  // namespace
 
 bool Responder::claims(dGeomID a, dGeomID b) const {
-  const OwnedVehicles vehicles(*implementation_, a, b);
-  if (vehicles.meet) return vehicles.areLevel;
+  if (const auto vehicles = vehiclesOf(*implementation_, a, b)) return vehicles->areLevel;
   const OwnedPair pair = pairOf(*implementation_, a, b);
   // A mesh that holds ground too is decided contact by contact.
   if (!pair || !pair.barrier->hasWallsOnly()) return false;
@@ -224,7 +217,7 @@ int Responder::keepUnclaimed(dGeomID a, dGeomID b, dContact* contacts, int count
   ContactPairs pairs(*implementation_, a, b);
   const auto isBumpers = [&](const dContact& contact) {
     const OwnedPair& pair = pairs.pairOf(contact.geom);
-    if (pairs.vehicles().meet) return pairs.vehicles().own(toVector(contact.geom.normal));
+    if (pairs.vehicles()) return pairs.vehicles()->own(toVector(contact.geom.normal));
     return pair && isOurs(pair, pairs.pose(), contact.geom);
   };
   return static_cast<int>(std::remove_if(contacts, contacts + count, isBumpers) - contacts);

@@ -111,7 +111,6 @@ void Responder::Implementation::reportPairImpact(const Meeting& meeting, const P
   const VehicleState& state = meeting.first->reading.state;
   const PairPlane plane(state, meeting.second->reading.state);
   PairHit hit{.time = each.time, .impact = each.impact, .response = each.response};
-  hit.impact.depth = 0.0;
   const auto [vehicle, other] = inOrderOfIds(*meeting.first, *meeting.second);
   if (vehicle != meeting.first) hit = asSeenByOther(hit);
   const Impact& impact = hit.impact;

@@ -91,13 +91,17 @@ struct Vehicle {
   bool isAlone = true;      ///< certainly away from all other vehicles
   bool isActive = false;    ///< … not both
   bool hasCompany = false;  ///< another vehicle may meet it
-  bool isInIsland = false;
-  bool isHit = false;    ///< by another vehicle
-  int island = -1;       ///< its number; −1: none
-  int islandPlace = -1;  ///< its place among the island's members
+  bool isHit = false;       ///< by another vehicle
+  int island = -1;          ///< its number; −1: none
+  int islandPlace = -1;     ///< its place among the island's members
 
   /// False also where the rotation is not finite.
   [[nodiscard]] bool isUpright() const { return uprightness(bodies.chassis()) >= minUprightness; }
+
+  /// By its yaw rate no point of the outline moves faster about the mass centre, m/s.
+  [[nodiscard]] double turningSpeed() const {
+    return std::abs(reading.motion.yawRate) * envelope.outline().radius();
+  }
 
   /// The parameters for the law: the outline as given, mass and inertia of the bodies when last
   /// read.

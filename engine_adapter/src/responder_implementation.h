@@ -41,9 +41,7 @@ struct Meeting {
   Vehicle* second = nullptr;
   PairFrame firstFrame;
   PairFrame secondFrame;
-  double gap = 0.0;    ///< between the outlines, m
-  double reach = 0.0;  ///< that others may make them close, m
-  bool isIn = false;   ///< it belongs to an island
+  bool isIn = false;  ///< it belongs to an island
 };
 
 struct Responder::Implementation {
@@ -114,7 +112,8 @@ struct Responder::Implementation {
   [[nodiscard]] bool mayMeet(const Vehicle& a, const Vehicle& b) const;
   void findCompany(double h);
   void findIslands(double h);
-  void joinIslands();
+  void joinIsland(const Meeting& meeting);
+  void mergeIslands();
   void solveIslands(double h);
   void solveIsland(std::span<Vehicle* const> members, double h);
   void addPairGuards(const Meeting& meeting, const StepOutcome& first, const StepOutcome& second,

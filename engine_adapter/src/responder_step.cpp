@@ -137,11 +137,8 @@ void Responder::Implementation::read(Vehicle& vehicle, double h) {
       isUpright && vehicle.mover == Mover::world && hasOuterJoint(vehicle.bodies);
   if (isUpright) {
     vehicle.reading.motion = motionOf(vehicle, options.response.method, h);
-    if (vehicle.isFar) {
-      vehicle.nearby.clear();
-    } else {
-      collectWalls(vehicle, h);
-    }
+    // One that is far by its own motion may be thrown against a wall.
+    if (vehicle.mover == Mover::world) collectWalls(vehicle, h);
   } else {
     vehicle.issues |= step_issue::tilted;
     vehicle.nearby.clear();
@@ -160,8 +157,10 @@ void Responder::Implementation::collectWalls(Vehicle& vehicle, double h) {
       .reach = CollisionStep::reach(vehicle.parametersNow(), motion, longestPenetrationTime, h),
       .evenIfNoneIsThere =
           !options.skipping || mayHaveEnded(memory.contacts, time) || !memory.passable.empty()};
-  if ((vehicle.reading.isHeld || vehicle.hasCompany) && options.guardContacts) {
-    const double near = guardDistance(motion.velocity.norm(), h);
+  if (vehicle.hasCompany || (vehicle.reading.isHeld && options.guardContacts)) {
+    const double own = motion.velocity.norm();
+    const double speed = vehicle.hasCompany ? std::max(own, vehicle.traveller.companySpeed) : own;
+    const double near = guardDistance(speed, h);
     question.around = hull(question.around, vehicle.envelope.outline().enlarged(near));
     question.reach = std::max(question.reach, near);
   }
@@ -273,6 +272,7 @@ void Responder::Implementation::forgetSurroundings() {
   for (const std::unique_ptr<Vehicle>& vehicle : vehicles) {
     vehicle->freeSpace.forget();
     vehicle->nearby.forget();
+    vehicle->traveller.forget();
   }
 }
 

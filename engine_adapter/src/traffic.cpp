@@ -77,12 +77,12 @@ void Traffic::add(Traveller& traveller) {
       for (Traveller* each = std::exchange(first, nullptr); each != nullptr;) {
         Traveller* const next = each->next;
         each->isListed = false;
-        each->apartUntil = 0.0;
+        each->forget();
         each = next;
       }
     }
   }
-  traveller.apartUntil = 0.0;
+  traveller.forget();
 }
 
 void Traffic::remove(Traveller& traveller) {

@@ -40,6 +40,9 @@ struct Traveller {
   bool isQueued = false;
   Traveller* next = nullptr;  ///< in the same bucket
   Traveller** link = nullptr;
+
+  /// It has to be looked at anew.
+  void forget() { apartUntil = 0.0; }
 };
 
 /// Which vehicles may meet in a step. Each keeps its velocity within an allowance; two whose gap

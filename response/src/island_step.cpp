@@ -4,6 +4,14 @@
 
 namespace bumper {
 
+PlanarMotion PairFrame::inPlane(const PlanarMotion& motion) const {
+  const Placement place(origin, yaw);
+  return {.position = origin + place.turned(motion.position),
+          .yaw = yaw + motion.yaw,
+          .velocity = place.turned(motion.velocity),
+          .yawRate = motion.yawRate};
+}
+
 IslandStep::IslandStep() : island_(std::make_unique<Island>()) {}
 IslandStep::~IslandStep() = default;
 IslandStep::IslandStep(IslandStep&&) noexcept = default;

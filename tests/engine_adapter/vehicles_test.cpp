@@ -199,6 +199,88 @@ TEST(Vehicles, ALorryHardlyFeelsAWheelbarrow) {
   EXPECT_GT(barrow.velocity().x(), 5.9);
 }
 
+// One that stands, or comes from the wall, and is thrown against it by another.
+TEST(Vehicles, OneThatIsThrownAgainstAWallHitsItInTheSameStep) {
+  for (const bool guarded : {false, true}) {
+    for (const double own : {0.0, -3.0}) {
+      for (const double gap : {0.02, 0.2, 0.45}) {
+        for (const double h : {0.005, 0.02}) {
+          CarPark park({.guardContacts = guarded});
+          park.responder.addBarrier(straightWall({0.0, 20.0}, {0.0, -20.0}, 2.0));
+          BoxCar& car = park.add({-2.1 - gap, 0.0}, 0.0, {own, 0.0});
+          park.add({-2.1 - gap - 4.6 - 0.1, 0.0}, 0.0, {40.0, 0.0});
+          double deepest = -1.0;
+          for (int i = 0; i < std::lround(0.2 / h); ++i) {
+            park.run(h, h);
+            deepest = std::max(deepest, dBodyGetPosition(car.body)[0] + 2.1);
+          }
+          EXPECT_LE(deepest, 1e-6) << guarded << ' ' << own << ' ' << gap << ' ' << h;
+        }
+      }
+    }
+  }
+}
+
+// A joint that does nothing makes them get guard contacts with each other and with the wall: those
+// of the second with the first must know that the first rebounds within the step.
+TEST(Vehicles, GuardsHaveNoEffectWithoutLoad) {
+  std::array<std::vector<double>, 2> states;
+  for (const bool guarded : {false, true}) {
+    CarPark park({.guardContacts = guarded});
+    park.responder.addBarrier(straightWall({0.0, 20.0}, {0.0, -20.0}, 2.0));
+    for (int i = 0; i < 3; ++i) {
+      BoxCar& car = park.add({-3.0 - 4.9 * i, 0.2 * i}, 0.05 * i, {20.0 - i, 0.0});
+      const dJointID idle = dJointCreateLMotor(park.ode.world, nullptr);
+      dJointAttach(idle, car.body, nullptr);
+      dJointSetLMotorNumAxes(idle, 1);
+      dJointSetLMotorAxis(idle, 0, 0, 1.0, 0.0, 0.0);
+      dJointSetLMotorParam(idle, dParamFMax, 0.0);
+    }
+    int impacts = 0;
+    park.run(0.6, 0.01, [&](std::span<const ImpactEvent> events) { impacts += impactsIn(events); });
+    EXPECT_GE(impacts, 4);
+    for (const auto& car : park.cars) {
+      const dReal* p = dBodyGetPosition(car->body);
+      states[guarded ? 1 : 0].insert(states[guarded ? 1 : 0].end(),
+                                     {p[0], p[1], car->velocity().x(), car->velocity().y()});
+    }
+  }
+  for (std::size_t i = 0; i < states[0].size(); ++i) {
+    EXPECT_NEAR(states[1][i], states[0][i], 1e-9) << i;
+  }
+}
+
+// A step back in time must not leave an old promise that two are apart.
+TEST(Vehicles, ThatWereRestoredAreHitAsBefore) {
+  CarPark park({.vehicleResponse = bouncing(0.0, 0.0)});
+  BoxCar& slow = park.add({0.0, 0.0}, 0.0, {0.4, 0.0});
+  park.add({4.6 + 1.0, 0.0}, 0.0, {0.0, 0.0});
+  const SavedState saved = park.responder.save();
+  const auto gap = [&] {
+    return dBodyGetPosition(park.cars[1]->body)[0] - dBodyGetPosition(slow.body)[0] - 4.6;
+  };
+  for (const double pause : {0.0, 30.0}) {
+    park.responder.restore(saved);
+    // The world stands meanwhile; the responder's time goes on.
+    for (int i = 0; i < std::lround(pause / 0.1); ++i) {
+      dBodySetLinearVel(slow.body, 0.0, 0.0, 0.0);
+      park.run(0.1, 0.1);
+    }
+    dBodySetLinearVel(slow.body, 0.4, 0.0, 0.0);
+    slow.place({0.0, 0.0, 0.55}, Eigen::Matrix3d::Identity());
+    park.cars[1]->place({5.6, 0.0, 0.55}, Eigen::Matrix3d::Identity());
+    park.cars[1]->move({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+    park.responder.restore(saved);
+    double least = 1.0;
+    for (int i = 0; i < 1000; ++i) {
+      park.run(0.005, 0.005);
+      least = std::min(least, gap());
+    }
+    EXPECT_GE(least, -1e-6) << "after " << pause << " s";
+    EXPECT_NEAR(slow.velocity().x(), 0.2, 1e-9) << "after " << pause << " s";
+  }
+}
+
 TEST(Vehicles, OneThatSleepsIsHitInTheSameStep) {
   CarPark park;
   BoxCar& asleep = park.add({0.0, 0.0}, 0.0, {0.0, 0.0});

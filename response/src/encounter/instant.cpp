@@ -30,6 +30,11 @@ static_assert(CollisionStep::maxImpacts ==
 
 }  // namespace
 
+void takeShare(ImpactResponse& response, double before, double change) {
+  response.contact.energyChange = change;
+  response.energyRatio = before > 0.0 ? std::max(before + change, 0.0) / before : 1.0;
+}
+
 Instant::Instant(Participant& vehicle, ContactSet& contacts)
     : vehicle_(vehicle), contacts_(contacts) {
   impacts_.reserve(CollisionStep::maxImpacts);
@@ -148,8 +153,7 @@ void Instant::takePart(std::size_t point, const ContactImpulse& impulse, double 
       plainResponse({.normal = at.normal, .arm = at.contact.arm}, vehicle_.body,
                     onVehicle(impulse, at.normal, at.contact.arm));
   response.approachSpeed = at.speed;
-  response.contact.energyChange = energyChange;
-  response.energyRatio = energy > 0.0 ? std::max(1.0 + energyChange / energy, 0.0) : 1.0;
+  takeShare(response, energy, energyChange);
   record(*wall, at, time, response);
 }
 
@@ -191,10 +195,8 @@ void Instant::answerTogether(double time) {
         plainResponse({.normal = at.normal, .arm = at.contact.arm}, vehicle_.body, part);
     if (last) response.after = after.motion;
     response.approachSpeed = at.speed;
-    response.contact.energyChange = change * weightOf(share) / weight;
-    const double kept = std::max(energy + response.contact.energyChange, 0.0);
-    response.energyRatio = energy > 0.0 ? kept / energy : 1.0;
-    energy = kept;
+    takeShare(response, energy, change * weightOf(share) / weight);
+    energy = std::max(energy + response.contact.energyChange, 0.0);
     record(*wall, at, time, response);
     impacts_.back().isPartOfNext = !last;
   }

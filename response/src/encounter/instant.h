@@ -29,6 +29,10 @@ enum class Effort {
   plastic  ///< so often answered already that nothing rebounds any more
 };
 
+/// Of impulses that act together: the response's share of what they dissipate, J, ≤ 0, in place of
+/// what its own impulse would, from an energy of `before`, J.
+void takeShare(ImpactResponse& response, double before, double change);
+
 /// Applies impulses at one instant until nothing that touches approaches.
 class Instant {
  public:

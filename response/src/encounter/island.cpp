@@ -43,13 +43,8 @@ double shortestPause(const ResponseSettings& settings, double h) {
 PairBody Island::bodyOf(int number, const PairFrame& frame, double time) const {
   const Encounter& encounter = *member(number).encounter;
   const Participant& participant = encounter.participant();
-  const PlanarMotion motion = advanced(participant.body.motion, time - encounter.time());
-  const Placement place(frame.origin, frame.yaw);
   PairBody body{.body = participant.body, .outline = participant.outline};
-  body.body.motion = {.position = frame.origin + place.turned(motion.position),
-                      .yaw = frame.yaw + motion.yaw,
-                      .velocity = place.turned(motion.velocity),
-                      .yawRate = motion.yawRate};
+  body.body.motion = frame.inPlane(advanced(participant.body.motion, time - encounter.time()));
   return body;
 }
 
@@ -116,20 +111,14 @@ void Island::easeApart() {
   constexpr double most = CollisionStep::maxRecoverySpeed;
   for (Pair& pair : pairs_) {
     look(pair, 0.0);
-    const double depth = pair.depth - allowedOverlap;
+    const double depth = pair.depth() - allowedOverlap;
     if (!(depth > 0.0)) continue;
-    const auto& [firstNumber, secondNumber, firstFrame, secondFrame, settings] = pair.given;
-    PairBody first = bodyOf(firstNumber, firstFrame, 0.0);
-    PairBody second = bodyOf(secondNumber, secondFrame, 0.0);
-    Vector2 normal = separation(first.outline, first.body.motion.placement(), second.outline,
-                                second.body.motion.placement())
-                         .normal;
-    const PairContact contact = pairContact(first, second, 0.0);
-    if (!contact.normal.isZero(0.0)) normal = contact.normal;
-    Member& a = member(firstNumber);
-    Member& b = member(secondNumber);
-    const Vector2 own = Placement({}, firstFrame.yaw).turnedBack(normal);
-    const Vector2 other = Placement({}, secondFrame.yaw).turnedBack(normal);
+    Vector2 normal = pairContact(firstOf(pair, 0.0), secondOf(pair, 0.0), 0.0).normal;
+    if (normal.isZero(0.0)) normal = pair.apart.normal;
+    Member& a = member(pair.given.first);
+    Member& b = member(pair.given.second);
+    const Vector2 own = pair.given.firstFrame.turnedBack(normal);
+    const Vector2 other = pair.given.secondFrame.turnedBack(normal);
     const double wanted = std::min(easedShare * depth / step_, most);
     const double missing = wanted - (a.eased.dot(own) - b.eased.dot(other));
     if (!(missing > 0.0)) continue;
@@ -148,15 +137,11 @@ void Island::easeApart() {
 
 // Where two vehicles are, and their contact if they touch.
 void Island::look(Pair& pair, double time) {
-  const PairBody first = bodyOf(pair.given.first, pair.given.firstFrame, time);
-  const PairBody second = bodyOf(pair.given.second, pair.given.secondFrame, time);
-  const double distance = separation(first.outline, first.body.motion.placement(), second.outline,
-                                     second.body.motion.placement())
-                              .distance;
+  const PairBody first = firstOf(pair, time);
+  const PairBody second = secondOf(pair, time);
   pair.known = true;
-  pair.touches = distance <= (pair.next == time ? sweptTolerance : touchTolerance);
-  pair.distance = distance;
-  pair.depth = std::max(-distance, 0.0);
+  pair.apart = separation(first, second);
+  pair.touches = pair.apart.distance <= (pair.next == time ? sweptTolerance : touchTolerance);
   if (pair.touches) {
     pair.contact = pairContact(first, second, pair.given.settings->penetrationTime);
   }
@@ -167,15 +152,15 @@ double Island::nextLook(const Pair& pair, double time) const {
   if (isHeld(pair)) return never;
   const double from = std::max(time, pair.ignoredUntil);
   if (!(from < step_)) return never;
-  const PairBody first = bodyOf(pair.given.first, pair.given.firstFrame, from);
-  const PairBody second = bodyOf(pair.given.second, pair.given.secondFrame, from);
+  const PairBody first = firstOf(pair, from);
+  const PairBody second = secondOf(pair, from);
   if (from == time && pair.known && pair.touches) {
     const double pause =
         leastTime(unseenOverlap, pair.contact.speed, gapAcceleration(first, second));
     return time + std::max(pause, shortestPause(*pair.given.settings, step_));
   }
   if (from == time && pair.known &&
-      pair.distance > fastestClosing(first, second) * (step_ - from) + sweptTolerance) {
+      pair.apart.distance > fastestClosing(first, second) * (step_ - from) + sweptTolerance) {
     return never;
   }
   const double wait = timeOfTouch(first, second, step_ - from);
@@ -202,7 +187,7 @@ void Island::settle(double time) {
       answerTogether(time);
       break;
     }
-    answer(*pair, time, Rebound::as_set);
+    answer(*pair, time);
   }
   forgetInstant(time);
 }
@@ -215,9 +200,7 @@ void Island::settleWalls(int answers) {
     const std::size_t before = each.encounter->instant().impacts().size();
     each.encounter->settle(answers >= wallsPlasticAfter ? Effort::plastic : Effort::as_set);
     if (each.encounter->instant().impacts().size() == before) continue;
-    for (Pair& pair : pairs_) {
-      pair.known &= &member(pair.given.first) != &each && &member(pair.given.second) != &each;
-    }
+    for (Pair& pair : pairs_) pair.known &= !pair.isOf(static_cast<int>(i));
   }
 }
 
@@ -226,8 +209,7 @@ Island::Pair* Island::fastestPair(double time) {
   Pair* fastest = nullptr;
   double speed = restTolerance;
   for (Pair& pair : pairs_) {
-    if (!member(pair.given.first).involved && !member(pair.given.second).involved) continue;
-    if (isHeld(pair) || (pair.ignoredUntil > time)) continue;
+    if (!isInvolved(pair) || isHeld(pair) || pair.ignoredUntil > time) continue;
     if (!pair.known) look(pair, time);
     const bool isSliver = pair.contact.share < 1.0 && pair.answers > 0;
     if (!pair.touches || isSliver || !(pair.contact.speed > speed)) continue;
@@ -237,50 +219,53 @@ Island::Pair* Island::fastestPair(double time) {
   return fastest;
 }
 
-void Island::answer(Pair& pair, double time, Rebound rebound) {
-  const auto& [firstNumber, secondNumber, firstFrame, secondFrame, settings] = pair.given;
-  involve(firstNumber, time);
-  involve(secondNumber, time);
-  const PairBody first = bodyOf(firstNumber, firstFrame, time);
-  const PairBody second = bodyOf(secondNumber, secondFrame, time);
+void Island::push(int number, const PlanarImpulse& impulse) {
+  Member& each = member(number);
+  each.encounter->participant().body.apply(impulse);
+  each.impulse += impulse;
+  each.changed = true;
+  for (Pair& pair : pairs_) pair.known &= !pair.isOf(number);
+}
+
+void Island::act(const PairImpact& impact) {
+  const IslandPair& pair = pairs_[static_cast<std::size_t>(impact.pair)].given;
+  const Vector2& linear = impact.response.impulse.linear;
+  push(pair.first, pair.firstFrame.onMember(linear, impact.impact.arm));
+  push(pair.second, pair.secondFrame.onMember(-linear, impact.impact.otherArm));
+  impacts_.push_back(impact);
+}
+
+void Island::answer(Pair& pair, double time) {
+  involve(pair.given.first, time);
+  involve(pair.given.second, time);
   PairImpact impact;
   impact.time = time;
-  impact.pair = static_cast<int>(&pair - pairs_.data());
-  impact.impact = pair.contact.impact(pair.depth);
-  impact.response = respondTo(pair.contact, first.body, second.body, *settings, rebound);
-  const PlanarImpulse& whole = impact.response.impulse;
-  const auto act = [&](int number, const PairFrame& frame, const Vector2& arm, double sign) {
-    const PlanarImpulse own{.linear = sign * Placement({}, frame.yaw).turnedBack(whole.linear),
-                            .angular = sign * cross(arm, whole.linear)};
-    Member& each = member(number);
-    each.encounter->participant().body.apply(own);
-    each.impulse += own;
-    each.changed = true;
-    for (Pair& other : pairs_) {
-      other.known &= other.given.first != number && other.given.second != number;
-    }
-  };
-  act(firstNumber, firstFrame, pair.contact.arm, 1.0);
-  act(secondNumber, secondFrame, pair.contact.otherArm, -1.0);
-  impacts_.push_back(impact);
+  impact.pair = numberOf(pair);
+  impact.impact = pair.contact.impact(pair.depth());
+  impact.response = respondTo(pair.contact, firstOf(pair, time).body, secondOf(pair, time).body,
+                              *pair.given.settings);
+  act(impact);
   ++pair.answers;
   ++answers_;
 }
 
-// All contacts of the vehicles that touch one involved act at once.
-void Island::answerTogether(double time) {
+// Those that touch one involved are involved.
+void Island::involveTouching(double time) {
   for (bool grew = true; grew;) {
     grew = false;
     for (Pair& pair : pairs_) {
-      const bool first = member(pair.given.first).involved;
-      const bool second = member(pair.given.second).involved;
-      if ((!first && !second) || isHeld(pair)) continue;
+      if (!isInvolved(pair) || isHeld(pair)) continue;
       if (!pair.known) look(pair, time);
-      if (!pair.touches || first == second) continue;
+      const bool first = member(pair.given.first).involved;
+      if (!pair.touches || first == member(pair.given.second).involved) continue;
       involve(first ? pair.given.second : pair.given.first, time);
       grew = true;
     }
   }
+}
+
+// The contacts of those involved, with walls and with each other.
+void Island::collectContacts() {
   jointBodies_.clear();
   jointContacts_.clear();
   owners_.clear();
@@ -294,65 +279,58 @@ void Island::answerTogether(double time) {
       owners_.push_back({.member = static_cast<int>(i), .wall = k});
     }
   }
-  for (Pair& pair : pairs_) {
-    if (!pair.known || !pair.touches || isHeld(pair)) continue;
-    const Member& a = member(pair.given.first);
-    if (!a.involved || pair.contact.normal.isZero(0.0)) continue;
-    const Placement own({}, pair.given.firstFrame.yaw);
-    const Placement other({}, pair.given.secondFrame.yaw);
+  for (const Pair& pair : pairs_) {
+    if (!pair.known || !pair.touches || isHeld(pair) || !member(pair.given.first).involved ||
+        pair.contact.normal.isZero(0.0)) {
+      continue;
+    }
+    const auto& [first, second, own, other, settings] = pair.given;
     for (const Vector2& end : pair.contact.ends) {
       const Vector2 aside = end - pair.contact.point;
-      jointContacts_.push_back({.body = static_cast<std::size_t>(pair.given.first),
+      jointContacts_.push_back({.body = static_cast<std::size_t>(first),
                                 .normal = own.turnedBack(pair.contact.normal),
                                 .arm = own.turnedBack(pair.contact.arm + aside),
-                                .otherBody = static_cast<std::size_t>(pair.given.second),
+                                .otherBody = static_cast<std::size_t>(second),
                                 .otherNormal = other.turnedBack(-pair.contact.normal),
                                 .otherArm = other.turnedBack(pair.contact.otherArm + aside)});
-      owners_.push_back({.pair = static_cast<int>(&pair - pairs_.data()), .aside = aside});
+      owners_.push_back({.pair = numberOf(pair), .aside = aside});
     }
   }
+}
+
+// All contacts of the vehicles that touch one involved act at once. Between their impulses no
+// motion existed: what all of them dissipate is shared by impulse and approach speed.
+void Island::answerTogether(double time) {
+  involveTouching(time);
+  collectContacts();
   const JointApproach::Result result = joint_.solve(jointBodies_, jointContacts_);
   const std::size_t firstImpact = impacts_.size();
   for (std::size_t i = 0; i < result.impulses.size(); ++i) {
-    if (!(result.impulses[i] > 0.0)) continue;
-    const Owner& owner = owners_[i];
-    // Between these impulses no motion existed: what all of them dissipate is shared.
-    const double weight = result.impulses[i] * std::max(-result.speeds[i], 0.0);
+    const ContactImpulse impulse{.normal = result.impulses[i]};
+    if (!(impulse.normal > 0.0)) continue;
+    const double weight = impulse.normal * std::max(-result.speeds[i], 0.0);
     const double change = result.weight > 0.0 ? result.energyChange * weight / result.weight : 0.0;
+    const Owner& owner = owners_[i];
     if (owner.pair < 0) {
-      member(owner.member)
-          .encounter->instant()
-          .takePart(owner.wall, {.normal = result.impulses[i]}, change, time);
+      member(owner.member).encounter->instant().takePart(owner.wall, impulse, change, time);
       continue;
     }
-    Pair& pair = pairs_[static_cast<std::size_t>(owner.pair)];
-    const PairBody first = bodyOf(pair.given.first, pair.given.firstFrame, time);
-    const PairBody second = bodyOf(pair.given.second, pair.given.secondFrame, time);
+    const Pair& pair = pairs_[static_cast<std::size_t>(owner.pair)];
+    const PairBody first = firstOf(pair, time);
+    const PairBody second = secondOf(pair, time);
     PairImpact impact;
     impact.time = time;
     impact.pair = owner.pair;
-    impact.impact = pair.contact.impact(pair.depth);
+    impact.impact = pair.contact.impact(pair.depth());
     for (Vector2* place : {&impact.impact.point, &impact.impact.arm, &impact.impact.otherArm}) {
       *place += owner.aside;
     }
-    impact.response = plainResponse(
-        impact.impact, first.body, second.body,
-        onVehicle({.normal = result.impulses[i]}, impact.impact.normal, impact.impact.arm));
-    const double energy = first.body.energy() + second.body.energy();
+    impact.response = plainResponse(impact.impact, first.body, second.body,
+                                    onVehicle(impulse, impact.impact.normal, impact.impact.arm));
     impact.response.approachSpeed = -result.speeds[i];
-    impact.response.contact.energyChange = change;
-    impact.response.energyRatio = energy > 0.0 ? std::max(1.0 + change / energy, 0.0) : 1.0;
+    takeShare(impact.response, first.body.energy() + second.body.energy(), change);
     if (impacts_.size() > firstImpact) impacts_.back().isPartOfNext = true;
-    impacts_.push_back(impact);
-    const JointContact& contact = jointContacts_[i];
-    const auto act = [&](std::size_t number, const Vector2& normal, const Vector2& arm) {
-      const Vector2 linear = result.impulses[i] * normal;
-      const PlanarImpulse own{.linear = linear, .angular = cross(arm, linear)};
-      members_[number].encounter->participant().body.apply(own);
-      members_[number].impulse += own;
-    };
-    act(contact.body, contact.normal, contact.arm);
-    act(contact.otherBody, contact.otherNormal, contact.otherArm);
+    act(impact);
   }
   ++answers_;
   for (Pair& pair : pairs_) pair.known = false;
@@ -369,7 +347,7 @@ void Island::forgetInstant(double time) {
     if (!(each.next < step_)) each.next = never;
   }
   for (Pair& pair : pairs_) {
-    if (!member(pair.given.first).involved && !member(pair.given.second).involved) continue;
+    if (!isInvolved(pair)) continue;
     if (!pair.known && !isHeld(pair)) look(pair, time);
     const bool isDue = pair.next == time && pair.answers == 0;
     if (pair.touches && (isDue || pair.contact.share < 1.0 || pair.contact.speed > restTolerance)) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "../pair/joint_approach.h"
 #include "../pair/pair_contact.h"
 #include "bumper/response/island_step.h"
+#include "bumper/response/pair.h"
 #include "encounter.h"
 
 namespace bumper {
@@ -43,9 +45,22 @@ class Island {
     // Where it is now, if known.
     bool known = false;
     bool touches = false;
-    double distance = 0.0;  // m
-    double depth = 0.0;
+    PairSeparation apart;
     PairContact contact;
+
+    [[nodiscard]] double depth() const { return std::max(-apart.distance, 0.0); }
+    [[nodiscard]] bool isOf(int member) const {
+      return given.first == member || given.second == member;
+    }
+  };
+
+  // What an impulse of many together acts on: a pair, beside its contact point by so much, m; or a
+  // wall of a member, its number among the points that it touches.
+  struct Owner {
+    int pair = -1;
+    Vector2 aside = Vector2::Zero();
+    int member = -1;
+    std::size_t wall = 0;
   };
 
   [[nodiscard]] Member& member(int number) { return members_[static_cast<std::size_t>(number)]; }
@@ -53,7 +68,19 @@ class Island {
     return members_[static_cast<std::size_t>(number)];
   }
   [[nodiscard]] PairBody bodyOf(int number, const PairFrame& frame, double time) const;
+  [[nodiscard]] PairBody firstOf(const Pair& pair, double time) const {
+    return bodyOf(pair.given.first, pair.given.firstFrame, time);
+  }
+  [[nodiscard]] PairBody secondOf(const Pair& pair, double time) const {
+    return bodyOf(pair.given.second, pair.given.secondFrame, time);
+  }
   [[nodiscard]] bool isHeld(const Pair& pair) const;
+  [[nodiscard]] bool isInvolved(const Pair& pair) const {
+    return member(pair.given.first).involved || member(pair.given.second).involved;
+  }
+  [[nodiscard]] int numberOf(const Pair& pair) const {
+    return static_cast<int>(&pair - pairs_.data());
+  }
 
   void begin(std::span<const IslandMember> members, std::span<const IslandPair> pairs, double h);
   void easeApart();
@@ -63,7 +90,11 @@ class Island {
   void settle(double time);
   void settleWalls(int answers);
   Pair* fastestPair(double time);
-  void answer(Pair& pair, double time, Rebound rebound);
+  void answer(Pair& pair, double time);
+  void push(int number, const PlanarImpulse& impulse);
+  void act(const PairImpact& impact);
+  void involveTouching(double time);
+  void collectContacts();
   void answerTogether(double time);
   void forgetInstant(double time);
 
@@ -77,12 +108,6 @@ class Island {
   JointApproach joint_;
   std::vector<PlanarBody> jointBodies_;
   std::vector<JointContact> jointContacts_;
-  struct Owner {
-    int pair = -1;    // or …
-    int member = -1;  // … a wall of this one, its contact's number among
-    std::size_t wall = 0;
-    Vector2 aside = Vector2::Zero();  // of the pair's contact point, m
-  };
   std::vector<Owner> owners_;
 };
 

@@ -2,9 +2,11 @@
 
 #include "bumper/response/pair.h"
 
+#include <algorithm>
+#include <array>
+
 #include "bumper/response/sweep.h"
 #include "pair_contact.h"
-#include "pair_order.h"
 #include "pair_response.h"
 #include "pair_sweep.h"
 
@@ -12,15 +14,22 @@ namespace bumper {
 
 namespace {
 
+// The order in which the two are taken, whoever asks: by where they are and how they move, then by
+// what they are. Bodies alike in all have none.
+bool comesBefore(const PlanarBody& a, const PlanarBody& b) {
+  const auto key = [](const PlanarBody& body) {
+    const PlanarMotion& motion = body.motion;
+    return std::array<double, 8>{motion.position.x(), motion.position.y(), motion.yaw,
+                                 motion.velocity.x(), motion.velocity.y(), motion.yawRate,
+                                 body.mass,           body.yawInertia};
+  };
+  return key(a) < key(b);
+}
+
 std::optional<PairHit> respondInOrder(PairBody first, PairBody second,
                                       const ResponseSettings& settings, double h) {
-  const auto apart = [&] {
-    return separation(first.outline, first.body.motion.placement(), second.outline,
-                      second.body.motion.placement())
-        .distance;
-  };
   double time = 0.0;
-  const double now = apart();
+  const double now = separation(first, second).distance;
   if (now > touchTolerance) {
     time = timeOfTouch(first, second, h);
     if (!(time <= h)) return std::nullopt;

@@ -49,7 +49,8 @@ SpeculativePairContacts speculativePairContacts(const OutlineInStep& first,
     SpeculativePairContact& contact = result.contacts[result.count++];
     contact.normal = apart.normal;
     contact.arm = place - at.position;
-    contact.otherArm = place - otherAt.position;
+    // An engine has one place for both, while they still are where the step begins.
+    contact.otherArm = first.start.position + contact.arm - second.start.position;
     contact.velocity = velocityAt(own, contact.arm) - velocityAt(other, contact.otherArm);
     contact.gap = apart.distance;
     contact.room = std::max(apart.distance + depth, 0.0) + pairAllowance;

@@ -7,7 +7,6 @@ namespace bumper {
 
 /// The response of the first of two bodies to their contact, which closes.
 ImpactResponse respondTo(const PairContact& contact, const PlanarBody& first,
-                         const PlanarBody& second, const ResponseSettings& settings,
-                         Rebound rebound = Rebound::as_set);
+                         const PlanarBody& second, const ResponseSettings& settings);
 
 }  // namespace bumper

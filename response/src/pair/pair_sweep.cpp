@@ -84,6 +84,7 @@ struct PairFlight {
       arms[i] = at.turned(arms[i]);
       heights[i] = out.dot(at.position + arms[i] - ownerAt.position);
     }
+    // Of the side, from its owner's mass centre.
     const double reach = *std::min_element(heights.begin(), heights.end()) - side.apart.distance;
     double wait = never;
     for (std::size_t i = 0; i < arms.size(); ++i) {
@@ -98,9 +99,10 @@ struct PairFlight {
     return wait;
   }
 
-  // Between a time when they are apart and one when they overlap: when they touch.
+  // Between a time when they are apart and one when they overlap: when they touch. By false
+  // position; an end that stays counts half each time (Illinois), and the share keeps off both.
   [[nodiscard]] double touchBetween(double apart, double distance, double in, double depth) const {
-    double weight = 1.0;  // Illinois
+    double weight = 1.0;
     for (int round = 0; round < 100 && distance > touching; ++round) {
       const double share = std::clamp(distance / (distance + weight * depth), 1e-3, 1.0 - 1e-9);
       const double time = apart + share * (in - apart);
@@ -126,6 +128,11 @@ struct PairFlight {
 PairSeparation separation(const Outline& first, const Placement& firstAt, const Outline& second,
                           const Placement& secondAt) {
   return separatingSide(first, firstAt, second, secondAt).apart;
+}
+
+PairSeparation separation(const PairBody& first, const PairBody& second) {
+  return separation(first.outline, first.body.motion.placement(), second.outline,
+                    second.body.motion.placement());
 }
 
 double timeOfTouch(const PairBody& first, const PairBody& second, double until) {

@@ -5,6 +5,9 @@
 
 namespace bumper {
 
+/// As they are now.
+PairSeparation separation(const PairBody& first, const PairBody& second);
+
 /// The first time up to `until`, s from now, at which two outlines touch in free flight, whatever
 /// their speeds; `never` if they do not. They must be apart now.
 double timeOfTouch(const PairBody& first, const PairBody& second, double until);

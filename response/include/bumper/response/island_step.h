@@ -20,6 +20,17 @@ struct IslandMember {
 struct PairFrame {
   Vector2 origin = Vector2::Zero();  ///< m
   double yaw = 0.0;                  ///< of its x axis, rad
+
+  /// A motion in the member's frame as one in the plane.
+  [[nodiscard]] PlanarMotion inPlane(const PlanarMotion& motion) const;
+  /// A direction of the plane in the member's frame.
+  [[nodiscard]] Vector2 turnedBack(const Vector2& v) const {
+    return Placement(Vector2::Zero(), yaw).turnedBack(v);
+  }
+  /// An impulse that acts on the member at `arm`, both in the plane, in the member's frame.
+  [[nodiscard]] PlanarImpulse onMember(const Vector2& linear, const Vector2& arm) const {
+    return {.linear = turnedBack(linear), .angular = cross(arm, linear)};
+  }
 };
 
 /// Two members that may touch each other.

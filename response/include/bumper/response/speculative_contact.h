@@ -65,7 +65,7 @@ class SpeculativeContacts {
 struct SpeculativePairContact {
   Vector2 normal = Vector2::Zero();    ///< unit, out of the second into the first
   Vector2 arm = Vector2::Zero();       ///< from the first's mass centre at the step's end, m
-  Vector2 otherArm = Vector2::Zero();  ///< … and the second's
+  Vector2 otherArm = Vector2::Zero();  ///< from the second's to that place at the step's start, m
   Vector2 velocity = Vector2::Zero();  ///< of the first relative to the second, m/s
   double gap = 0.0;                    ///< as above
   double room = 0.0;
