@@ -24,18 +24,10 @@ namespace {
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using testing::namesIn;
 using testing::readText;
 using testing::TemporaryFolder;
 using ::testing::ThrowsMessage;
-
-/// What a folder holds, in order.
-std::vector<std::string> namesIn(const std::filesystem::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
 
 void writeTo(const std::filesystem::path& place, std::string_view text) {
   OutputFile file(place);

@@ -2,8 +2,6 @@
 
 #include "assimp_converter.h"
 
-#include <assimp/mesh.h>
-#include <assimp/scene.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "importer_scene.h"
+
 namespace bumper {
 namespace {
 
@@ -21,30 +21,8 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
-/// A scene with one mesh, "fence", of three corners and one face.
-std::unique_ptr<aiScene> fence(const std::vector<unsigned>& face) {
-  // assimp's objects free what they point to.
-  auto scene = std::make_unique<aiScene>();
-  auto mesh = std::make_unique<aiMesh>();
-  mesh->mNumVertices = 3;
-  mesh->mVertices = std::make_unique<aiVector3D[]>(3).release();
-  mesh->mVertices[1] = {1, 0, 0};
-  mesh->mVertices[2] = {0, 0, 1};
-  mesh->mNumFaces = 1;
-  mesh->mFaces = std::make_unique<aiFace[]>(1).release();
-  mesh->mFaces[0].mNumIndices = static_cast<unsigned>(face.size());
-  mesh->mFaces[0].mIndices = std::make_unique<unsigned[]>(face.size()).release();
-  std::copy(face.begin(), face.end(), mesh->mFaces[0].mIndices);
-  scene->mNumMeshes = 1;
-  scene->mMeshes = std::make_unique<aiMesh*[]>(1).release();
-  scene->mMeshes[0] = mesh.release();
-  scene->mRootNode = std::make_unique<aiNode>("root").release();
-  auto node = std::make_unique<aiNode>("fence");
-  node->mNumMeshes = 1;
-  node->mMeshes = std::make_unique<unsigned[]>(1).release();
-  aiNode* child = node.release();
-  scene->mRootNode->addChildren(1, &child);
-  return scene;
+std::unique_ptr<aiScene> fence(const std::vector<unsigned>& face, unsigned copies = 1) {
+  return bumper::testing::importedTriangle(face, "fence", copies);
 }
 
 FileScene converted(const aiScene& source, const SceneBudget& budget = {}) {
@@ -66,21 +44,8 @@ TEST(AssimpConverter, CopiesWhatIsRight) {
   EXPECT_EQ(converted(*fence({0, 1})).pointsAndLines, 1U);
 }
 
-/// The same shown by so many nodes.
-std::unique_ptr<aiScene> fences(unsigned count) {
-  auto scene = fence({0, 1, 2});
-  for (unsigned i = 1; i < count; ++i) {
-    auto node = std::make_unique<aiNode>("fence");
-    node->mNumMeshes = 1;
-    node->mMeshes = std::make_unique<unsigned[]>(1).release();
-    aiNode* child = node.release();
-    scene->mRootNode->addChildren(1, &child);
-  }
-  return scene;
-}
-
 TEST(AssimpConverter, StaysWithinTheBudget) {
-  const auto scene = fences(10);
+  const auto scene = fence({0, 1, 2}, 10);
   // A root, ten nodes and ten meshes; ten names of five bytes.
   const SceneBudget enough{.triangles = 10, .nodes = 21, .names = 50};
   EXPECT_EQ(converted(*scene, enough).scene.triangles.size(), 10U);

@@ -2,8 +2,6 @@
 // of them are in one place. Time is counted as what takes it: bytes that are allocated, cells and
 // levels that are looked at. A program of its own, because it replaces operator new.
 
-#include <assimp/mesh.h>
-#include <assimp/scene.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,6 +18,7 @@
 #include "bumper/scenes/wall_plan.h"
 #include "bumper/scenes/walls.h"
 #include "ground_levels.h"
+#include "importer_scene.h"
 #include "scene_building.h"
 
 namespace {
@@ -172,37 +171,9 @@ TEST(Growth, OfSelectionAndWhatFollowsIt) {
       6000.0);
 }
 
-/// One mesh of a triangle, shown by so many nodes.
-std::unique_ptr<aiScene> copies(unsigned n) {
-  auto scene = std::make_unique<aiScene>();
-  auto mesh = std::make_unique<aiMesh>();
-  mesh->mNumVertices = 3;
-  mesh->mVertices = std::make_unique<aiVector3D[]>(3).release();
-  mesh->mVertices[1] = {1, 0, 0};
-  mesh->mVertices[2] = {0, 0, 1};
-  mesh->mNumFaces = 1;
-  mesh->mFaces = std::make_unique<aiFace[]>(1).release();
-  mesh->mFaces[0].mNumIndices = 3;
-  mesh->mFaces[0].mIndices = new unsigned[3]{0, 1, 2};
-  scene->mNumMeshes = 1;
-  scene->mMeshes = std::make_unique<aiMesh*[]>(1).release();
-  scene->mMeshes[0] = mesh.release();
-  scene->mRootNode = std::make_unique<aiNode>("root").release();
-  scene->mRootNode->mNumChildren = n;
-  scene->mRootNode->mChildren = std::make_unique<aiNode*[]>(n).release();
-  for (unsigned i = 0; i < n; ++i) {
-    auto node = std::make_unique<aiNode>("copy");
-    node->mParent = scene->mRootNode;
-    node->mNumMeshes = 1;
-    node->mMeshes = std::make_unique<unsigned[]>(1).release();
-    scene->mRootNode->mChildren[i] = node.release();
-  }
-  return scene;
-}
-
 TEST(Growth, OfCopiesOfAMesh) {
   for (const unsigned n : {1'000U, 10'000U, 100'000U}) {
-    const std::unique_ptr<aiScene> scene = copies(n);
+    const std::unique_ptr<aiScene> scene = bumper::testing::importedTriangle({0, 1, 2}, "copy", n);
     const double bytes = bytesOf([&] {
       FileScene result;
       convert("copies.ply", *scene, {}, result, [](LoadStage, double) {});

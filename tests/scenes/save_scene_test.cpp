@@ -16,12 +16,14 @@
 #include "bumper/scenes/walls.h"
 #include "scene_measures.h"
 #include "temporary_files.h"
+#include "temporary_folder.h"
 
 namespace bumper::tests {
 namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using testing::namesIn;
 using ::testing::ThrowsMessage;
 
 void expectSameTriangles(const Scene& actual, const Scene& expected) {
@@ -38,7 +40,7 @@ void expectSameTriangles(const Scene& actual, const Scene& expected) {
 
 struct RoundTripFormat {
   std::string ending;
-  bool isolate;  ///< the format is not read in process
+  bool isolate;  ///< read in a process of its own
   bool names;    ///< the format keeps them
 };
 
@@ -111,15 +113,6 @@ TEST_F(SavedScenes, SavingSaysWhatIsWrong) {
               ThrowsMessage<Error>(AllOf(HasSubstr("nowhere"), HasSubstr("cannot be written"))));
   EXPECT_THAT([&] { saveScene(Scene{}, path("empty.obj")); },
               ThrowsMessage<Error>(AllOf(HasSubstr("empty.obj"), HasSubstr("no triangle"))));
-}
-
-/// What a folder holds, in order.
-std::vector<std::string> namesIn(const std::filesystem::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
-  return names;
 }
 
 class SaveScene : public TemporaryFiles {};

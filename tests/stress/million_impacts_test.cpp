@@ -54,17 +54,6 @@ struct Faults {
   }
 };
 
-std::vector<Segment> segmentsOf(const Plan& plan) {
-  std::vector<Segment> walls;
-  for (const Line& line : plan) {
-    walls.push_back({.start = line.start,
-                     .end = line.end,
-                     .normal = turnedLeft((line.end - line.start).normalized()),
-                     .id = static_cast<int>(walls.size())});
-  }
-  return walls;
-}
-
 // One step, checked impact by impact against free flight from one to the next. `mostInside` is how
 // deep the outline may have come into a wall so far.
 void check(const VehicleParameters& vehicle, const PlanarMotion& start, double h, const Plan& plan,

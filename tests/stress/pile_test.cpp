@@ -74,20 +74,6 @@ double depthOf(const VehicleParameters& a, const PlanarMotion& motionA, const Ve
   return std::min(depth(a, motionA, b, motionB), depth(b, motionB, a, motionA));
 }
 
-std::vector<Segment> segmentsOf(const Plan& plan) {
-  std::vector<Segment> walls;
-  for (const Line& line : plan) {
-    walls.push_back({.start = line.start,
-                     .end = line.end,
-                     .normal = turnedLeft((line.end - line.start).normalized()),
-                     .radius = 0.0,
-                     .solid = false,
-                     .id = static_cast<int>(walls.size()),
-                     .surface = 0});
-  }
-  return walls;
-}
-
 Pile randomPile(Random& random) {
   constexpr double pi = 3.14159265358979;
   Pile pile;

@@ -70,6 +70,17 @@ Plan slab(const Line& middle, double thickness) {
   return plan;
 }
 
+std::vector<Segment> segmentsOf(const Plan& plan) {
+  std::vector<Segment> walls;
+  for (const Line& line : plan) {
+    walls.push_back({.start = line.start,
+                     .end = line.end,
+                     .normal = turnedLeft((line.end - line.start).normalized()),
+                     .id = static_cast<int>(walls.size())});
+  }
+  return walls;
+}
+
 Plan polygon(double radius, std::size_t sides) {
   const auto corner = [&](std::size_t i) -> Vector2 {
     const double angle =

@@ -7,6 +7,7 @@
 
 #include "bumper/response/contact_point.h"
 #include "bumper/response/planar_motion.h"
+#include "bumper/response/segment.h"
 #include "bumper/response/vehicle_parameters.h"
 #include "bumper/scenes/scene.h"
 
@@ -38,6 +39,9 @@ bool leadsThrough(const Vector2& from, const Vector2& to, std::span<const Line> 
 
 /// The walls of a box of the given thickness about a line.
 Plan slab(const Line& middle, double thickness);
+
+/// The same for the response, on surface 0, each with its number as id.
+std::vector<Segment> segmentsOf(const Plan& plan);
 
 /// A regular polygon about the origin; it goes round counter-clockwise.
 Plan polygon(double radius, std::size_t sides);

@@ -1,5 +1,6 @@
 #include "temporary_folder.h"
 
+#include <algorithm>
 #include <cstdlib>  // mkdtemp
 #include <stdexcept>
 #include <string>
@@ -16,6 +17,14 @@ TemporaryFolder::TemporaryFolder() {
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
+}
+
+std::vector<std::string> namesIn(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 }  // namespace bumper::testing

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace bumper::testing {
 
@@ -19,5 +21,8 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// What a folder holds, in order.
+std::vector<std::string> namesIn(const std::filesystem::path& folder);
 
 }  // namespace bumper::testing
