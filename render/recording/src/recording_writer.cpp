@@ -65,7 +65,7 @@ void addInOrder(const Recording& recording, RecordingWriter& writer) {
 
 }  // namespace
 
-RecordingWriter::RecordingWriter(std::filesystem::path file, RunDescription run)
+RecordingWriter::RecordingWriter(const std::filesystem::path& file, RunDescription run)
     : RecordingWriter(file, file, std::move(run)) {}
 
 RecordingWriter::RecordingWriter(std::filesystem::path file, const std::filesystem::path& path,

@@ -30,7 +30,7 @@ class RecordingWriter {
   /// Makes the file, in place of one of the same name; the folder must exist. Throws Error if that
   /// cannot be done, or if the scene's `up` is none of "", "x", "y", "z" or its scale is not finite
   /// and positive.
-  explicit RecordingWriter(std::filesystem::path file, RunDescription run = {});
+  explicit RecordingWriter(const std::filesystem::path& file, RunDescription run = {});
 
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
