@@ -17,7 +17,7 @@ namespace {
 constexpr double steepNormal = 0.7;
 
 // The sides of a box, wound so that their normals point outwards.
-Scene sceneOfBox(dGeomID box, const std::string& name) {
+Scene sceneOfBox(dGeomID box, const WorldFrame& frame, const std::string& name) {
   dVector3 lengths;
   dGeomBoxGetLengths(box, lengths);
   const Eigen::Vector3d half = 0.5 * toVector(lengths);
@@ -30,7 +30,7 @@ Scene sceneOfBox(dGeomID box, const std::string& name) {
     const Eigen::Vector3d corner((i & 1) != 0 ? half.x() : -half.x(),
                                  (i & 2) != 0 ? half.y() : -half.y(),
                                  (i & 4) != 0 ? half.z() : -half.z());
-    scene.vertices.emplace_back(place + axes * corner);
+    scene.vertices.emplace_back(frame.vector(place + axes * corner));
   }
   constexpr std::array<std::array<std::uint32_t, 4>, 6> sides = {
       {{1, 3, 7, 5}, {2, 0, 4, 6}, {3, 2, 6, 7}, {0, 1, 5, 4}, {4, 5, 7, 6}, {2, 3, 1, 0}}};
@@ -43,29 +43,29 @@ Scene sceneOfBox(dGeomID box, const std::string& name) {
 
 }  // namespace
 
-Barrier::Barrier(BarrierId id, const Scene& scene, const BarrierOptions& options, std::string name,
-                 const ResponseSettings& usual)
+Barrier::Barrier(BarrierId id, const Scene& scene, const WorldFrame& frame,
+                 const BarrierOptions& options, std::string name, const ResponseSettings& usual)
     : id_(id), name_(std::move(name)), hasScene_(true) {
   keepOptions(options);
-  mesh_.emplace(scene, options, name_);
+  mesh_.emplace(scene, frame, options, name_);
   keepGeom(mesh_->geom());
   keepSettings(usual);
 }
 
-Barrier::Barrier(BarrierId id, dGeomID geom, const BarrierOptions& options, std::string name,
-                 const ResponseSettings& usual)
+Barrier::Barrier(BarrierId id, dGeomID geom, const WorldFrame& frame, const BarrierOptions& options,
+                 std::string name, const ResponseSettings& usual)
     : id_(id), name_(std::move(name)), hasScene_(false) {
   keepOptions(options);
   switch (dGeomGetClass(geom)) {
     case dTriMeshClass:
-      mesh_.emplace(geom, options, name_);
+      mesh_.emplace(geom, frame, options, name_);
       break;
     case dBoxClass:
-      mesh_.emplace(sceneOfBox(geom, name_), geom, options, name_);
+      mesh_.emplace(sceneOfBox(geom, frame, name_), geom, options, name_);
       break;
     case dPlaneClass:
     case dCylinderClass:
-      primitive_.emplace(geom, options.walls.maxNormalUp);
+      primitive_.emplace(geom, frame, options.walls.maxNormalUp);
       break;
     default:
       throw Error(std::string("addBarrier: the geom is ") + classNameOf(geom) +
@@ -76,8 +76,8 @@ Barrier::Barrier(BarrierId id, dGeomID geom, const BarrierOptions& options, std:
   keepSettings(usual);
 }
 
-Barrier::Barrier(BarrierId id, dGeomID geom, const Scene& shape, const BarrierOptions& options,
-                 std::string name, const ResponseSettings& usual)
+Barrier::Barrier(BarrierId id, dGeomID geom, const Scene& shape, const WorldFrame& /*frame*/,
+                 const BarrierOptions& options, std::string name, const ResponseSettings& usual)
     : id_(id), name_(std::move(name)), hasScene_(true) {
   keepOptions(options);
   mesh_.emplace(shape, geom, options, name_);

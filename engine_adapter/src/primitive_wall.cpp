@@ -19,12 +19,12 @@ void requireFinite(bool isFinite, const char* what) {
 
 }  // namespace
 
-PrimitiveWall::PrimitiveWall(dGeomID geom, double maxNormalUp) {
+PrimitiveWall::PrimitiveWall(dGeomID geom, const WorldFrame& frame, double maxNormalUp) {
   if (dGeomGetClass(geom) == dPlaneClass) {
     dVector4 plane;
     dGeomPlaneGetParams(geom, plane);
-    direction_ = toVector(plane);
-    place_ = plane[3] * direction_;
+    direction_ = frame.direction(toVector(plane));
+    place_ = plane[3] / frame.metre() * direction_;
     requireFinite(direction_.allFinite() && place_.allFinite(), "plane");
     if (std::abs(direction_.z()) > maxNormalUp) {
       throw Error("addBarrier: the plane is flatter than WallSelection::maxNormalUp allows");
@@ -36,8 +36,10 @@ PrimitiveWall::PrimitiveWall(dGeomID geom, double maxNormalUp) {
   dReal radius = 0.0;
   dReal length = 0.0;
   dGeomCylinderGetParams(geom, &radius, &length);
-  place_ = toVector(dGeomGetPosition(geom));
-  direction_ = toMatrix(dGeomGetRotation(geom)).col(2);
+  radius /= frame.metre();
+  length /= frame.metre();
+  place_ = frame.vector(toVector(dGeomGetPosition(geom)));
+  direction_ = frame.direction(toMatrix(dGeomGetRotation(geom)).col(2));
   if (direction_.z() < 0.0) direction_ = -direction_;
   radius_ = radius;
   requireFinite(place_.allFinite() && direction_.allFinite() && std::isfinite(radius) &&

@@ -9,6 +9,7 @@
 #include "bumper/scenes/wall_plan.h"
 #include "envelope.h"
 #include "vehicle_bodies.h"
+#include "world_frame.h"
 
 namespace bumper {
 
@@ -17,7 +18,7 @@ class PrimitiveWall {
  public:
   /// Throws Error if the geom's class is another or it leans too far to be a wall:
   /// `maxNormalUp` as in WallSelection.
-  PrimitiveWall(dGeomID geom, double maxNormalUp);
+  PrimitiveWall(dGeomID geom, const WorldFrame& frame, double maxNormalUp);
 
   /// Its section with a vehicle's yaw plane over the band, extended to `beyond` the envelope, m;
   /// nothing if it is further away than that.

@@ -20,6 +20,7 @@
 #include "traffic.h"
 #include "warnings.h"
 #include "world_clock.h"
+#include "world_frame.h"
 
 namespace bumper {
 
@@ -47,6 +48,8 @@ struct Meeting {
 struct Responder::Implementation {
   dWorldID world = nullptr;
   ResponderOptions options;
+  WorldFrame worldFrame;
+  bool anyCopied = false;  // a vehicle's numbers are not ODE's own
 
   // In the order of their ids. These are given once, so that none ever means another thing.
   std::vector<std::unique_ptr<Barrier>> barriers;
@@ -94,6 +97,8 @@ struct Responder::Implementation {
            (options.vehiclesCollide || !pairOptions.empty());
   }
 
+  /// Of the bodies' numbers.
+  void refreshCopies() const;
   /// The step of those vehicles that are not certainly away from all walls and other vehicles.
   void stepAll(std::span<Vehicle* const> some, double h);
   /// Corrects deliveries that the world's last step did not carry out as expected.
