@@ -111,9 +111,9 @@ BarrierMesh::BarrierMesh(const Scene& scene, const WorldFrame& frame, const Barr
   lendGeom(frame, options.space);
 }
 
-BarrierMesh::BarrierMesh(const Scene& scene, dGeomID geom, const BarrierOptions& options,
-                         std::string name)
-    : name_(std::move(name)), geom_(geom), solid_(dGeomGetClass(geom) == dBoxClass) {
+BarrierMesh::BarrierMesh(const Scene& scene, dGeomID geom, bool solid,
+                         const BarrierOptions& options, std::string name)
+    : name_(std::move(name)), geom_(geom), solid_(solid) {
   keepWalls(scene, selectWalls(scene, options.walls));
   buildMesh();
 }

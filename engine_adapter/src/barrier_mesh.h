@@ -24,8 +24,9 @@ class BarrierMesh {
   /// A new geom for the scene's walls in options.space.
   BarrierMesh(const Scene& scene, const WorldFrame& frame, const BarrierOptions& options,
               std::string name);
-  /// The walls of the application's geom, of any class, as a scene.
-  BarrierMesh(const Scene& scene, dGeomID geom, const BarrierOptions& options, std::string name);
+  /// The walls of the application's geom, of any class, as a scene; `solid` as isSolid().
+  BarrierMesh(const Scene& scene, dGeomID geom, bool solid, const BarrierOptions& options,
+              std::string name);
   /// The walls of the application's trimesh.
   BarrierMesh(dGeomID trimesh, const WorldFrame& frame, const BarrierOptions& options,
               std::string name);

@@ -115,10 +115,7 @@ void lookAround(Responder::Implementation& responder) noexcept {
 template <typename... Source>
 BarrierId add(Responder::Implementation& responder, const BarrierOptions& options, std::string name,
               const Source&... source) {
-  if (options.response) validateSettings(*options.response, responder.options);
-  for (const auto& [material, settings] : options.materials) {
-    validateSettings(settings, responder.options);
-  }
+  responder.requireValid(options);
   const BarrierId id{responder.nextBarrier};
   if (name.empty()) name = "barrier " + std::to_string(id.value);
   auto barrier = makeBarrier(responder, id, options, std::move(name), source...);
@@ -189,6 +186,11 @@ void requireUsable(const Responder::Implementation& responder, dGeomID geom) {
 }
 
 }  // namespace
+
+void Responder::Implementation::requireValid(const BarrierOptions& given) const {
+  if (given.response) validateSettings(*given.response, options);
+  for (const auto& [material, settings] : given.materials) validateSettings(settings, options);
+}
 
 Responder::Responder(dWorldID world, const ResponderOptions& options) {
   if (world == nullptr) throw Error("Responder: the world is null");

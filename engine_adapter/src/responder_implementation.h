@@ -17,6 +17,7 @@
 #include "bumper/response/island_step.h"
 #include "ode_handles.h"
 #include "registered_vehicle.h"
+#include "space_barriers.h"
 #include "traffic.h"
 #include "warnings.h"
 #include "world_clock.h"
@@ -54,6 +55,7 @@ struct Responder::Implementation {
   // In the order of their ids. These are given once, so that none ever means another thing.
   std::vector<std::unique_ptr<Barrier>> barriers;
   std::vector<std::unique_ptr<Vehicle>> vehicles;
+  std::vector<std::unique_ptr<BarrierSpace>> spaces;
   int nextBarrier = 0;
   int nextVehicle = 0;
   std::unordered_map<dGeomID, const Barrier*> barrierOfGeom;
@@ -86,6 +88,9 @@ struct Responder::Implementation {
   std::vector<IslandPair> islandPairs;
   std::vector<const Meeting*> islandMeetings;
   std::vector<StepOutcome> islandOutcomes;
+
+  /// Throws Error if a barrier's settings are invalid.
+  void requireValid(const BarrierOptions& given) const;
 
   /// Invalidates the known surroundings of vehicles.
   void forgetSurroundings();

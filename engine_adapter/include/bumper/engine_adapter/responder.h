@@ -119,11 +119,28 @@ class Responder {
   BarrierId addBarrier(const Scene& scene, const BarrierOptions& options = {});
 
   /// A geom that the application already has: the walls of a trimesh, road and walls in one, the
-  /// sides of a box, a plane, which is half of the world, or an upright cylinder. It must stand
-  /// still from now on, or updateBarrier() be called. ODE stores a trimesh's vertices in single
+  /// sides of a box, a plane, which is half of the world, an upright cylinder or capsule, or a
+  /// sphere; of round ends what is steeper than 45°, as a circle where that is widest within a
+  /// vehicle's band. A capsule that leans further is read as 24 flat sides. It must stand still
+  /// from now on, or updateBarrier() be called. ODE stores a trimesh's vertices in single
   /// precision; they are read as stored. Throws Error if it is of another class, has a body, is
   /// registered already or has no wall.
   BarrierId addBarrier(dGeomID geom, const BarrierOptions& options = {});
+
+  /// Every geom in a space, and in the spaces in it, that stands still and has a wall, as a barrier
+  /// of its own with these options; what has a body, is disabled or is a barrier already is passed
+  /// over. The result is as if each had been added by itself, and is valid until the next call for
+  /// that space. Throws Error if the space is null, was added already, or is a quadtree space or
+  /// holds one, whose content cannot be read; or if a setting is invalid.
+  const SpaceBarriers& addBarriers(dSpaceID space, const BarrierOptions& options = {});
+  /// Call after geoms came into such a space, left it, were destroyed or moved: new ones are added,
+  /// those that are gone removed, and those that stand or are sized differently read anew; others
+  /// cost nothing. Until then the walls stay as they were. What changes in a trimesh without its
+  /// bounding box is for updateBarrier(). Throws Error as addBarriers() does, and if the space was
+  /// not added.
+  const SpaceBarriers& updateBarriers(dSpaceID space);
+  /// Removes those barriers. The space may be gone. Throws Error if it was not added.
+  void removeBarriers(dSpaceID space);
 
   /// Call after the application has moved or changed a barrier's geom: its walls are read anew. Of
   /// a barrier made from a scene, or whose shape is given as one, the scene as it is now takes the
