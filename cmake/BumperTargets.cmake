@@ -3,6 +3,7 @@
 
 include_guard()
 include(CheckCXXCompilerFlag)
+include(CheckLinkerFlag)
 
 # Asked for before they are used: another compiler may lack some.
 set(bumper_flags "")
@@ -33,10 +34,15 @@ elseif(CMAKE_CXX_FLAGS MATCHES "-fsanitize=[a-z,]*address")
   list(APPEND bumper_flags -D__SANITIZE_ADDRESS__)
 endif()
 
+set(bumper_exported_symbols ${CMAKE_CURRENT_LIST_DIR}/exported_symbols.map)
+check_linker_flag(CXX LINKER:--version-script=${bumper_exported_symbols} BUMPER_HAS_VERSION_SCRIPTS)
+
 # The same flags for every target of ours; none of them leaks to applications.
 function(bumper_target_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(
+    ${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
+                         VISIBILITY_INLINES_HIDDEN ON)
   target_compile_options(${target} PRIVATE ${bumper_flags}
                                            $<$<BOOL:${BUMPER_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()
@@ -50,7 +56,15 @@ function(bumper_library component)
   add_library(${target} ${ARG_SOURCES})
   add_library(bumper::${component} ALIAS ${target})
   bumper_target_options(${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${component})
+  # Before version 1 every minor version may change what programs were compiled against.
+  set_target_properties(
+    ${target} PROPERTIES EXPORT_NAME ${component} VERSION ${PROJECT_VERSION}
+                         SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "SHARED_LIBRARY" AND BUMPER_HAS_VERSION_SCRIPTS)
+    target_link_options(${target} PRIVATE LINKER:--version-script=${bumper_exported_symbols})
+    set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${bumper_exported_symbols})
+  endif()
   target_include_directories(
     ${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
                      $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)

@@ -6,10 +6,11 @@
 #include <optional>
 #include <string>
 
+#include "bumper/base/api.h"
 #include "bumper/response/response_settings.h"
 #include "bumper/scenes/walls.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// Names a barrier of one responder.
 struct BarrierId {

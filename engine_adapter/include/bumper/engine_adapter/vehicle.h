@@ -6,10 +6,11 @@
 #include <span>
 #include <string>
 
+#include "bumper/base/api.h"
 #include "bumper/response/response_settings.h"
 #include "bumper/response/vehicle_parameters.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// Names a vehicle of one responder.
 struct VehicleId {
