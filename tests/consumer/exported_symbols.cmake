@@ -1,8 +1,5 @@
-# Sees that shared libraries show what their headers declare, and nothing else:
-#   cmake -D "LIBRARIES=<file>;..." -D "HEADERS=<folder>;..." -D NM=<nm> -P exported_symbols.cmake
-# The headers are the installed ones and, of the source tree's own, those that say BUMPER_INTERNAL.
-cmake_minimum_required(VERSION 3.22)
-include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
+# Included: sees that the shared LIBRARIES show what the headers in the folders HEADERS declare, and
+# nothing else. These are the installed ones and, of the source tree's own, those that say BUMPER_INTERNAL.
 
 # What is declared: names before an opening bracket or a class's bases. A class of which the name
 # alone is told is not among them.
