@@ -1,10 +1,11 @@
 #pragma once
 
+#include "bumper/base/api.h"
 #include "bumper/response/angle_curve.h"
 #include "bumper/response/planar_body.h"
 #include "bumper/response/response_settings.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// One collision of a vehicle with a wall or another body: where and which way. Vectors are in the
 /// frame of the motion that it was found for.

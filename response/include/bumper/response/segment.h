@@ -1,8 +1,9 @@
 #pragma once
 
+#include "bumper/base/api.h"
 #include "bumper/response/planar_motion.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 struct ResponseSettings;
 

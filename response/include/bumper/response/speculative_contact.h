@@ -4,9 +4,10 @@
 #include <cstddef>
 #include <span>
 
+#include "bumper/base/api.h"
 #include "bumper/response/contact_point.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// A point where outline and wall may meet within a step: a constraint for an engine's own solver,
 /// so that no load pushes the vehicle through. In the frame of the motion that it was found for.

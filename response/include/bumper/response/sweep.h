@@ -2,9 +2,10 @@
 
 #include <limits>
 
+#include "bumper/base/api.h"
 #include "bumper/response/touch.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// A contact point that approaches more slowly than this, m/s, is at rest to rounding.
 inline constexpr double restTolerance = 1e-9;

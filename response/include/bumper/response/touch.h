@@ -2,10 +2,11 @@
 
 #include <optional>
 
+#include "bumper/base/api.h"
 #include "bumper/response/outline.h"
 #include "bumper/response/segment.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// Points of an outline and a wall that are no further apart than this touch, m.
 inline constexpr double touchTolerance = 1e-9;
