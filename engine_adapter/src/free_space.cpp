@@ -151,6 +151,7 @@ bool FreeSpace::fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
   double ahead = std::clamp(timeAhead * speedNow, leastAhead, mostAhead);
   const double wanted = std::min(fewestSteps * h * speedNow, 0.5 * ahead);
   for (const std::unique_ptr<Barrier>& barrier : barriers) {
+    if (barrier->frame().moves()) continue;
     const double lean = bandHeight * leanAsSeen(barrier->lean(), tilt);
     const PlanStrip strip{.origin = state.massCentre.head<2>(),
                           .direction = along,

@@ -149,7 +149,13 @@ class Responder {
   /// contacts of vehicles are kept; a vehicle that it was moved into is freed by penetration
   /// recovery, without an impulse. The last step's events are void. Costs as much as adding it.
   /// Throws Error as addBarrier() does, and if the barrier's own geom was destroyed.
+  ///
+  /// A geom that was only moved costs next to nothing, also that of a scene: moved before each of
+  /// two steps in a row it has the velocity from one place to the next, and hits vehicles with it.
+  /// A velocity that is given holds for the coming step. One that is not updated before a step
+  /// stands still in it.
   void updateBarrier(BarrierId barrier);
+  void updateBarrier(BarrierId barrier, const BarrierVelocity& velocity);
   void updateBarrier(BarrierId barrier, const Scene& scene);
 
   /// The geom in a barrier's contacts: the new one, which is null once its space was destroyed, or
