@@ -46,7 +46,7 @@ struct Meeting {
   bool isIn = false;  ///< it belongs to an island
 };
 
-struct Responder::Implementation {
+struct BUMPER_HIDDEN Responder::Implementation {
   dWorldID world = nullptr;
   ResponderOptions options;
   WorldFrame worldFrame;

@@ -7,10 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/response/response_settings.h"
 #include "bumper/scenes/walls.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// Names a barrier of one responder.
 struct BarrierId {

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 
+#include "bumper/base/api.h"
 #include "bumper/engine_adapter/barrier.h"
 #include "bumper/engine_adapter/saved_state.h"
 #include "bumper/engine_adapter/vehicle.h"
@@ -15,7 +16,7 @@
 #include "bumper/response/impact_event.h"
 #include "bumper/scenes/scene.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// How an impulse reaches the bodies (the paper's two choices of implementation). Both lead to the
 /// same motion.

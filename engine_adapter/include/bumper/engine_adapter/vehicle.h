@@ -6,11 +6,12 @@
 #include <span>
 #include <string>
 
+#include "bumper/base/api.h"
 #include "bumper/engine_adapter/world_axes.h"
 #include "bumper/response/response_settings.h"
 #include "bumper/response/vehicle_parameters.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// Names a vehicle of one responder.
 struct VehicleId {

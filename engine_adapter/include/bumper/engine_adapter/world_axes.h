@@ -3,10 +3,11 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "bumper/base/api.h"
 #include "bumper/response/impact_event.h"
 #include "bumper/scenes/scene.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// The axes and the length unit of an ODE world, which is right-handed.
 ///
