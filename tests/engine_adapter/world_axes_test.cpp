@@ -251,6 +251,19 @@ TEST(WorldAxes, WhatTheResponderTellsIsInTheWorldsAxes) {
       1e-7);
 }
 
+TEST(WorldAxes, ParametersAreReadInThem) {
+  const ChassisAxes own{.forward = -z, .up = y};
+  const OtherAxes axes{.world = yUp, .chassis = columns(-z, -x, y), .metre = 100.0};
+  TurnedWorld world(axes);
+  world.addCar({.place = {3.0, 2.0, 0.55}, .yaw = 0.7});
+  const VehicleParameters read = parametersFromGeoms(world.body(0), {}, 55.0, own);
+  EXPECT_NEAR(read.mass, 1500.0, 1e-9);
+  EXPECT_NEAR(read.yawInertia, 2600.0e4, 1e-2);
+  EXPECT_NEAR(read.massCentreToFront, 210.0, 1e-9);
+  EXPECT_NEAR(read.massCentreToRear, 250.0, 1e-9);
+  EXPECT_NEAR(read.width, 180.0, 1e-9);
+}
+
 // A car on a block, and one at its side, where y is up.
 TEST(WorldAxes, TopsAreGroundThere) {
   TurnedWorld world({.world = yUp, .chassis = yUp});
