@@ -81,8 +81,10 @@ foreach(component IN LISTS components)
   list(REMOVE_ITEM all ${public} "")
   bumper_modules_of(requires flags ${public})
   bumper_modules_of(requires_private libs_private ${all})
-  # Whoever links with another language's compiler.
-  list(APPEND libs_private -lstdc++ -lm)
+  if(component STREQUAL "base")
+    # For a linker that is called by another language's compiler.
+    list(APPEND libs_private -lstdc++ -lm)
+  endif()
   string(REPLACE _ - name ${component})
   set(libs "-L\${libdir} -lbumper_${component}")
   bumper_pkg_config(bumper-${name} ${component} "${PROJECT_DESCRIPTION}: ${component}")
