@@ -9,7 +9,8 @@
 #include "bumper/response/force_pulse.h"
 
 /// What a responder remembers from step to step, as plain data. Times are Responder::time(), s;
-/// world frame unless said otherwise.
+/// world frame unless said otherwise, as zUp() of WorldAxes has it: in metres with z up, whatever
+/// the world's own axes and unit.
 namespace BUMPER_API bumper {
 
 /// A wall that a vehicle passes through: it broke and the outline has not left it yet, or its long

@@ -26,6 +26,10 @@ struct Overlap {
                          ///< outline: the normal is not the wall's own
 };
 
+/// The overlap with a wall that belongs to a body, after the body has moved, and with it what
+/// overlaps.
+Overlap carried(const Overlap& overlap, const Placement& before, const Placement& after);
+
 /// The part of a segment inside the outline.
 struct Interference {
   bool empty = true;
