@@ -1,6 +1,6 @@
 # Debian packages of shared libraries (preset "package", then cpack): the libraries, what compiling
 # with them needs, and the tools.
-if(NOT PROJECT_IS_TOP_LEVEL)
+if(NOT PROJECT_IS_TOP_LEVEL OR NOT BUILD_SHARED_LIBS)
   return()
 endif()
 

@@ -44,13 +44,14 @@ if [ "$unpack" = 0 ] && [ "$(id -u)" = 0 ] && command -v debootstrap >/dev/null;
   cp -r "$here/main.cpp" "$here/borders" "$root/try"
   chroot "$root" apt-get update -qq
   # The tools first, with what they ask for and no more: a compiler brings much along.
-  chroot "$root" sh -c "cd /try && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq \
+  chroot "$root" sh -c "cd /try && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq -o Dpkg::Use-Pty=0 \
     --no-install-recommends ./*.deb >/dev/null && bumper-drive --help >/dev/null"
-  chroot "$root" sh -c "DEBIAN_FRONTEND=noninteractive apt-get install -y -qq \
+  chroot "$root" sh -c "DEBIAN_FRONTEND=noninteractive apt-get install -y -qq -o Dpkg::Use-Pty=0 \
     --no-install-recommends g++ cmake make pkg-config >/dev/null"
   try >"$root/try/try.sh"
   chroot "$root" sh -c "cd /try && PREFIX=/usr MESA_SHADER_CACHE_DISABLE=true sh try.sh"
-  chroot "$root" sh -c "DEBIAN_FRONTEND=noninteractive apt-get remove -y -qq 'libbumper*' >/dev/null"
+  chroot "$root" sh -c "DEBIAN_FRONTEND=noninteractive apt-get remove -y -qq -o Dpkg::Use-Pty=0 \
+    'libbumper*' >/dev/null"
   left=$(find "$root/usr" -path "$root/usr/share/doc" -prune -o -name '*bumper*' -print)
   [ -z "$left" ] || { echo "left by removing the packages: $left" >&2; exit 1; }
   echo "installed, used and removed in a bare $PRETTY_NAME"
