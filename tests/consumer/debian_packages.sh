@@ -39,6 +39,8 @@ if [ "$unpack" = 0 ] && [ "$(id -u)" = 0 ] && command -v debootstrap >/dev/null;
     awk -v name="$VERSION_CODENAME" '$2 == name { print $1; exit }')
   debootstrap --variant=minbase "$VERSION_CODENAME" "$root" "$mirror" >"$root.log" 2>&1 ||
     { tail -20 "$root.log" >&2; exit 1; }
+  mount -t proc proc "$root/proc"
+  trap 'umount "$root/proc"' EXIT
   mkdir "$root/try"
   cp "$packages"/*.deb "$root/try"
   cp -r "$here/main.cpp" "$here/borders" "$root/try"
@@ -49,7 +51,8 @@ if [ "$unpack" = 0 ] && [ "$(id -u)" = 0 ] && command -v debootstrap >/dev/null;
   chroot "$root" sh -c "DEBIAN_FRONTEND=noninteractive apt-get install -y -qq -o Dpkg::Use-Pty=0 \
     --no-install-recommends g++ cmake make pkg-config >/dev/null"
   try >"$root/try/try.sh"
-  chroot "$root" sh -c "cd /try && PREFIX=/usr MESA_SHADER_CACHE_DISABLE=true sh try.sh"
+  chroot "$root" env -i PATH="$PATH" PREFIX=/usr MESA_SHADER_CACHE_DISABLE=true \
+    sh -c "cd /try && sh try.sh"
   chroot "$root" sh -c "DEBIAN_FRONTEND=noninteractive apt-get remove -y -qq -o Dpkg::Use-Pty=0 \
     'libbumper*' >/dev/null"
   left=$(find "$root/usr" -path "$root/usr/share/doc" -prune -o -name '*bumper*' -print)
