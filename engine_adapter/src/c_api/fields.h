@@ -272,7 +272,8 @@ inline void read(const Name& name, const bumper_wall_selection* from, WallSelect
 /// Fills a caller's struct, which knows its size.
 template <Sized C>
 void give(const char* name, C* to, const typename Layout<C>::Cpp& from) {
-  fill({name}, required(name, to), to->size, inC<C>(from));
+  C& target = required(name, to);
+  fill({name}, target, target.size, inC<C>(from));
 }
 
 /// Sets a caller's struct of that size to the defaults.
