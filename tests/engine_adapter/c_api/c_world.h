@@ -63,6 +63,7 @@ struct CWorld {
     EXPECT_EQ(bumper_add_vehicle(responder, car.body, &parameters, nullptr, &vehicle), BUMPER_OK);
     EXPECT_EQ(bumper_add_vehicle(responder, other.body, &parameters, nullptr, &otherVehicle),
               BUMPER_OK);
+    spare.place({0.0, 500.0, 0.55}, Eigen::Matrix3d::Identity());
     start();
   }
   ~CWorld() { EXPECT_EQ(bumper_destroy_responder(responder), BUMPER_OK) << bumper_last_error(); }
@@ -96,6 +97,7 @@ struct CWorld {
   OdeWorld ode;
   BoxCar car{ode.world, ode.space};
   BoxCar other{ode.world, ode.space};
+  BoxCar spare{ode.world};  ///< no vehicle yet
   CWall wall{8.0};
   bumper_responder responder{};
   bumper_barrier barrier{};
