@@ -81,7 +81,7 @@ static bumper_vehicle add_car(const simulation* self) {
   dGeomSetBody(box, body);
 
   checked(bumper_init_vehicle_parameters(&parameters, sizeof parameters));
-  checked(bumper_parameters_from_geoms(body, NULL, 0, half_height, &parameters));
+  checked(bumper_parameters_from_geoms(body, NULL, half_height, &parameters));
   checked(bumper_init_vehicle_options(&options, sizeof options));
   options.name = "car";
   checked(bumper_add_vehicle(self->responder, body, &parameters, &options, &car));

@@ -9,8 +9,6 @@ constinit HandleTable<SavedState> savedStates;
 
 namespace {
 
-constexpr std::size_t mostLinkedBodies = 65536;
-
 // The number of a thing of this responder; −1 if the handle is of none.
 int numberOf(const Session& session, std::uint64_t handle) {
   const auto number = static_cast<std::uint32_t>(handle);
@@ -43,11 +41,6 @@ BarrierId idOf(const Session& session, const char* name, bumper_barrier barrier)
     refuseHandle(name, barrier.value, "barrier of this responder");
   }
   return id;
-}
-
-std::span<const dBodyID> linkedBodies(const Name& name, const dBodyID* first, std::size_t count) {
-  requireArray(name, first, count, mostLinkedBodies);
-  return {first, count};
 }
 
 }  // namespace bumper::c_api

@@ -66,7 +66,4 @@ int asking(const char* function, bumper_responder responder, const Call& call) n
   });
 }
 
-/// Bodies that move with the chassis. Throws Error on an array that is none.
-std::span<const dBodyID> linkedBodies(const Name& name, const dBodyID* first, std::size_t count);
-
 }  // namespace bumper::c_api

@@ -4,6 +4,8 @@ namespace bumper::c_api {
 
 namespace {
 
+constexpr std::size_t mostLinkedBodies = 65536;
+
 VehicleParameters vehicleParameters(const bumper_vehicle_parameters* given) {
   VehicleParameters result;
   read({"parameters"}, &required("parameters", given), result);
@@ -17,8 +19,9 @@ VehicleOptions vehicleOptions(const bumper_vehicle_options* given) {
   const Name name{"options"};
   const auto whole = completed(name, *given, inC<bumper_vehicle_options>());
   readFields(name, whole, result);
-  result.linkedBodies =
-      linkedBodies({"linked_bodies", &name}, whole.linked_bodies, whole.linked_body_count);
+  requireArray({"linked_bodies", &name}, whole.linked_bodies, whole.linked_body_count,
+               mostLinkedBodies);
+  result.linkedBodies = {whole.linked_bodies, whole.linked_body_count};
   return result;
 }
 
@@ -52,35 +55,34 @@ int giveBand(const char* function, const bumper_vehicle_parameters* parameters, 
 
 extern "C" {
 
-int bumper_parameters_from_bodies(dBodyID chassis, const dBodyID* linked_bodies,
-                                  size_t linked_body_count, double mass_centre_to_front,
-                                  double mass_centre_to_rear, double width,
-                                  double mass_centre_height,
+int bumper_parameters_from_bodies(dBodyID chassis, const bumper_vehicle_options* options,
+                                  double mass_centre_to_front, double mass_centre_to_rear,
+                                  double width, double mass_centre_height,
                                   bumper_vehicle_parameters* parameters) {
   return guarded("bumper_parameters_from_bodies", [&] {
     required("chassis", chassis);
     required("parameters", parameters);
-    const auto linked = linkedBodies({"linked_bodies"}, linked_bodies, linked_body_count);
     requireNumber({"mass_centre_to_front"}, mass_centre_to_front);
     requireNumber({"mass_centre_to_rear"}, mass_centre_to_rear);
     requireNumber({"width"}, width);
     requireNumber({"mass_centre_height"}, mass_centre_height);
-    giveParameters(parametersFromBodies(chassis, linked, mass_centre_to_front, mass_centre_to_rear,
-                                        width, mass_centre_height),
-                   parameters);
+    giveParameters(
+        parametersFromBodies(chassis, vehicleOptions(options).linkedBodies, mass_centre_to_front,
+                             mass_centre_to_rear, width, mass_centre_height),
+        parameters);
     return int{BUMPER_OK};
   });
 }
 
-int bumper_parameters_from_geoms(dBodyID chassis, const dBodyID* linked_bodies,
-                                 size_t linked_body_count, double mass_centre_height,
-                                 bumper_vehicle_parameters* parameters) {
+int bumper_parameters_from_geoms(dBodyID chassis, const bumper_vehicle_options* options,
+                                 double mass_centre_height, bumper_vehicle_parameters* parameters) {
   return guarded("bumper_parameters_from_geoms", [&] {
     required("chassis", chassis);
     required("parameters", parameters);
-    const auto linked = linkedBodies({"linked_bodies"}, linked_bodies, linked_body_count);
     requireNumber({"mass_centre_height"}, mass_centre_height);
-    giveParameters(parametersFromGeoms(chassis, linked, mass_centre_height), parameters);
+    giveParameters(
+        parametersFromGeoms(chassis, vehicleOptions(options).linkedBodies, mass_centre_height),
+        parameters);
     return int{BUMPER_OK};
   });
 }

@@ -274,47 +274,46 @@ TEST_F(CArguments, OfVehiclesAreRefused) {
 }
 
 TEST_F(CArguments, OfMeasuredParametersAreRefused) {
+  using Options = bumper_vehicle_options;
   using Parameters = bumper_vehicle_parameters;
   const dBodyID body = world_.car.body;
-  const dBodyID bodies[] = {nullptr};
   auto result = initialised(bumper_init_vehicle_parameters);
-  const auto fromBodies = [&](std::size_t which, double value) {
-    std::array<double, 4> numbers{2.1, 2.5, 1.8, 0.55};
-    numbers[which] = value;
-    return bumper_parameters_from_bodies(body, nullptr, 0, numbers[0], numbers[1], numbers[2],
-                                         numbers[3], &result);
+  const auto refuse = [&](const char* function, const auto& measure) {
+    expectRefused(function, "chassis", measure(nullptr, nullptr, &result));
+    refuseFilling<Parameters>(function, "parameters",
+                              [&](Parameters* target) { return measure(body, nullptr, target); });
+    Options options = initialised(bumper_init_vehicle_options);
+    const Call<Options> with = [&](const Options* some) { return measure(body, some, &result); };
+    refuseSizes<Options>(function, "options", options, with);
+    options.linked_body_count = 1;
+    expectRefused(function, "options.linked_bodies", with(&options));
+    const dBodyID bodies[] = {nullptr};
+    options.linked_bodies = bodies;
+    expectRefused(function, "null", with(&options));
+    options.linked_body_count = hugeCount;
+    expectRefused(function, "options.linked_bodies", with(&options));
   };
-  const char* call = "bumper_parameters_from_bodies";
+  refuse("bumper_parameters_from_bodies",
+         [](dBodyID chassis, const Options* options, Parameters* target) {
+           return bumper_parameters_from_bodies(chassis, options, 2.1, 2.5, 1.8, 0.55, target);
+         });
+  refuse("bumper_parameters_from_geoms",
+         [](dBodyID chassis, const Options* options, Parameters* target) {
+           return bumper_parameters_from_geoms(chassis, options, 0.55, target);
+         });
   const std::array names{"mass_centre_to_front", "mass_centre_to_rear", "width",
                          "mass_centre_height"};
   for (std::size_t i = 0; i < names.size(); ++i) {
-    refuseNumber(call, names[i], {0.0, -1.0}, [&](double value) { return fromBodies(i, value); });
+    refuseNumber("bumper_parameters_from_bodies", names[i], {0.0, -1.0}, [&](double value) {
+      std::array<double, 4> numbers{2.1, 2.5, 1.8, 0.55};
+      numbers[i] = value;
+      return bumper_parameters_from_bodies(body, nullptr, numbers[0], numbers[1], numbers[2],
+                                           numbers[3], &result);
+    });
   }
-  const auto withBodies = [&](dBodyID chassis, const dBodyID* linked, std::size_t count,
-                              Parameters* target) {
-    return bumper_parameters_from_bodies(chassis, linked, count, 2.1, 2.5, 1.8, 0.55, target);
-  };
-  expectRefused(call, "chassis", withBodies(nullptr, nullptr, 0, &result));
-  expectRefused(call, "linked_bodies", withBodies(body, nullptr, 1, &result));
-  expectRefused(call, "linked_bodies", withBodies(body, bodies, hugeCount, &result));
-  expectRefused(call, "null", withBodies(body, bodies, 1, &result));
-  refuseFilling<Parameters>(
-      call, "parameters", [&](Parameters* target) { return withBodies(body, nullptr, 0, target); });
-
-  call = "bumper_parameters_from_geoms";
-  const auto withGeoms = [&](dBodyID chassis, const dBodyID* linked, std::size_t count,
-                             Parameters* target) {
-    return bumper_parameters_from_geoms(chassis, linked, count, 0.55, target);
-  };
-  expectRefused(call, "chassis", withGeoms(nullptr, nullptr, 0, &result));
-  expectRefused(call, "linked_bodies", withGeoms(body, nullptr, 1, &result));
-  expectRefused(call, "linked_bodies", withGeoms(body, bodies, hugeCount, &result));
-  expectRefused(call, "null", withGeoms(body, bodies, 1, &result));
-  refuseNumber(call, "mass_centre_height", {0.0, -1.0}, [&](double value) {
-    return bumper_parameters_from_geoms(body, nullptr, 0, value, &result);
-  });
-  refuseFilling<Parameters>(
-      call, "parameters", [&](Parameters* target) { return withGeoms(body, nullptr, 0, target); });
+  refuseNumber(
+      "bumper_parameters_from_geoms", "mass_centre_height", {0.0, -1.0},
+      [&](double value) { return bumper_parameters_from_geoms(body, nullptr, value, &result); });
   EXPECT_EQ(result.mass, 0.0);
 
   bumper_band band{};

@@ -91,14 +91,13 @@ static int add_cars(drive* self, bumper_vehicle* vehicles) {
     const double* outline = setup->outline[i];
     bumper_vehicle_parameters parameters;
     bumper_vehicle_options options;
-    bumper_init_vehicle_parameters(&parameters, sizeof parameters);
-    failed(self, bumper_parameters_from_bodies(setup->chassis[i], setup->wheels[i], c_drive_wheels,
-                                               outline[0], outline[1], outline[2], outline[3],
-                                               &parameters));
     bumper_init_vehicle_options(&options, sizeof options);
     options.name = names[i];
     options.linked_bodies = setup->wheels[i];
     options.linked_body_count = c_drive_wheels;
+    bumper_init_vehicle_parameters(&parameters, sizeof parameters);
+    failed(self, bumper_parameters_from_bodies(setup->chassis[i], &options, outline[0], outline[1],
+                                               outline[2], outline[3], &parameters));
     if (failed(self, bumper_add_vehicle(self->responder, setup->chassis[i], &parameters, &options,
                                         &vehicles[i]))) {
       break;

@@ -274,7 +274,7 @@ TEST(CBand, IsThatOfCpp) {
 TEST(CParameters, FromGeomsAreThoseOfCpp) {
   const CWorld world;
   auto parameters = initialised(bumper_init_vehicle_parameters);
-  ASSERT_EQ(bumper_parameters_from_geoms(world.car.body, nullptr, 0, 0.55, &parameters), BUMPER_OK);
+  ASSERT_EQ(bumper_parameters_from_geoms(world.car.body, nullptr, 0.55, &parameters), BUMPER_OK);
   const VehicleParameters expected = parametersFromGeoms(world.car.body, {}, 0.55);
   EXPECT_EQ(parameters.mass_centre_to_front, expected.massCentreToFront);
   EXPECT_EQ(parameters.width, expected.width);

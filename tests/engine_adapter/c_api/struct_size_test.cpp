@@ -97,7 +97,7 @@ TEST(CStructs, OfANewerCallerWork) {
   EXPECT_EQ(parameters.added, 0.0);
   EXPECT_EQ(parameters.known.size, sizeof parameters);
   CWorld world;
-  ASSERT_EQ(bumper_parameters_from_bodies(world.car.body, nullptr, 0, 2.1, 2.5, 1.8, 0.55,
+  ASSERT_EQ(bumper_parameters_from_bodies(world.car.body, nullptr, 2.1, 2.5, 1.8, 0.55,
                                           &parameters.known),
             BUMPER_OK);
   ASSERT_EQ(bumper_remove_vehicle(world.responder, world.vehicle), BUMPER_OK);

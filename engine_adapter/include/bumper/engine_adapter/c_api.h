@@ -42,6 +42,9 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#ifdef __GNUC__
+#pragma GCC visibility push(default)
+#endif
 
 /* ------------------------------------------------------------------------------------- errors --
  */
@@ -280,16 +283,6 @@ typedef struct bumper_vehicle_parameters {
 /* All 0: there are no defaults. */
 int bumper_init_vehicle_parameters(bumper_vehicle_parameters* parameters, size_t size);
 
-/* parametersFromBodies() and parametersFromGeoms() of vehicle.h. `linked_bodies` may be null if
- * there are none; at most 65,536. `parameters` needs its size. */
-int bumper_parameters_from_bodies(dBodyID chassis, const dBodyID* linked_bodies,
-                                  size_t linked_body_count, double mass_centre_to_front,
-                                  double mass_centre_to_rear, double width,
-                                  double mass_centre_height, bumper_vehicle_parameters* parameters);
-int bumper_parameters_from_geoms(dBodyID chassis, const dBodyID* linked_bodies,
-                                 size_t linked_body_count, double mass_centre_height,
-                                 bumper_vehicle_parameters* parameters);
-
 /* Heights above the ground, m, at which walls hit the outline. */
 typedef struct bumper_band {
   double bottom;
@@ -319,6 +312,16 @@ typedef struct bumper_vehicle_options {
 } bumper_vehicle_options;
 
 int bumper_init_vehicle_options(bumper_vehicle_options* options, size_t size);
+
+/* parametersFromBodies() and parametersFromGeoms() of vehicle.h. The linked bodies are those of
+ * `options`, which may be null if there are none; its other members do not matter. `parameters`
+ * needs its size. */
+int bumper_parameters_from_bodies(dBodyID chassis, const bumper_vehicle_options* options,
+                                  double mass_centre_to_front, double mass_centre_to_rear,
+                                  double width, double mass_centre_height,
+                                  bumper_vehicle_parameters* parameters);
+int bumper_parameters_from_geoms(dBodyID chassis, const bumper_vehicle_options* options,
+                                 double mass_centre_height, bumper_vehicle_parameters* parameters);
 
 /* `options` may be null: the defaults. */
 int bumper_add_vehicle(bumper_responder responder, dBodyID chassis,
@@ -486,6 +489,9 @@ int bumper_destroy_state(bumper_state state);
 int bumper_lock_trimesh(void);
 int bumper_unlock_trimesh(void);
 
+#ifdef __GNUC__
+#pragma GCC visibility pop
+#endif
 #ifdef __cplusplus
 }
 #endif
