@@ -13,6 +13,12 @@ void requireGeoms(dGeomID a, dGeomID b) {
   required("b", b);
 }
 
+// Out of the way of a step, whose cost is counted in nanoseconds.
+[[noreturn, gnu::noinline, gnu::cold]] void refuseStep(double h) {
+  requireNumber({"h"}, h);
+  refuse({"h"}, "is " + std::to_string(h) + " s: it must not be negative");
+}
+
 // ODE's dCollide gives no more.
 constexpr int mostContacts = 65535;
 
@@ -70,10 +76,7 @@ int bumper_keep_unclaimed(bumper_responder responder, dGeomID a, dGeomID b, dCon
 
 int bumper_step(bumper_responder responder, double h) {
   return withSession("bumper_step", responder, [&](Session& session) {
-    if (!(h >= 0.0 && h <= largestNumber)) {
-      requireNumber({"h"}, h);
-      refuse({"h"}, "is " + std::to_string(h) + " s: it must not be negative");
-    }
+    if (!(h >= 0.0 && h <= largestNumber)) refuseStep(h);
     session.events = session.responder.step(h);
     return static_cast<int>(session.events.size());
   });

@@ -52,12 +52,12 @@ C completed(const Name& name, const C& given, C whole) {
 
 /// Fills a caller's struct of `size` bytes.
 template <Sized C>
-void fill(const Name& name, C& target, std::size_t size, C whole) {
+void fill(const Name& name, C& target, std::size_t size, const C& whole) {
   requireSize<C>(name, size);
-  whole.size = size;
   auto* bytes = reinterpret_cast<unsigned char*>(&target);
   std::memcpy(bytes, &whole, std::min(size, sizeof(C)));
   if (size > sizeof(C)) std::memset(bytes + sizeof(C), 0, size - sizeof(C));
+  target.size = size;
 }
 
 }  // namespace bumper::c_api
