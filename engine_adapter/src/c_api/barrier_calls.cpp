@@ -1,37 +1,18 @@
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <string>
 
-#include "session.h"
+#include "barrier_options.h"
 
 namespace bumper::c_api {
 
 namespace {
 
-constexpr std::size_t mostMaterials = 65536;
 constexpr std::size_t mostTriangles = 715'827'882;
 constexpr std::size_t mostNumbered = std::numeric_limits<std::uint32_t>::max();
 
 Name element(const char* text, const Name& of, std::size_t index) {
   return {text, &of, static_cast<std::int64_t>(index)};
-}
-
-BarrierOptions barrierOptions(const bumper_barrier_options* given) {
-  BarrierOptions result;
-  if (given == nullptr) return result;
-  const Name name{"options"};
-  const auto whole = completed(name, *given, inC<bumper_barrier_options>());
-  readFields(name, whole, result);
-  requireArray({"materials", &name}, whole.materials, whole.material_count, mostMaterials);
-  for (std::size_t i = 0; i < whole.material_count; ++i) {
-    const Name material = element("materials", name, i);
-    const auto& [which, response] = whole.materials[i];
-    if (which == nullptr) refuse({"material", &material}, "is null");
-    if (response == nullptr) refuse({"response", &material}, "is null");
-    read({"response", &material}, response, result.materials[which]);
-  }
-  return result;
 }
 
 Scene scene(const bumper_scene* given) {

@@ -52,6 +52,8 @@ void fields(Is<bumper_responder_options> auto& c, auto& cpp, const auto& visit) 
   visit("delivery", c.delivery, cpp.delivery);
   visit("guard_contacts", c.guard_contacts, cpp.guardContacts);
   visit("skipping", c.skipping, cpp.skipping);
+  visit("up", c.up, cpp.axes.up);
+  visit("metre", c.metre, cpp.axes.metre);
 }
 
 /// Of WallSelection but for the ground's reach.
@@ -107,6 +109,8 @@ void fields(Is<bumper_vehicle_options> auto& c, auto& cpp, const auto& visit) {
   visit("tilt_limit", c.tilt_limit, cpp.tiltLimit);
   visit("mover", c.mover, cpp.mover);
   visit("finite_rotation", c.finite_rotation, cpp.finiteRotation);
+  visit("forward", c.forward, cpp.axes.forward);
+  visit("up", c.up, cpp.axes.up);
 }
 
 void fields(Is<bumper_pair_options> auto& c, auto& cpp, const auto& visit) {
@@ -192,7 +196,7 @@ struct Layout<bumper_response_settings>
     : LayoutOf<ResponseSettings, BUMPER_FIRST_SIZE(bumper_response_settings, rest_speed)> {};
 template <>
 struct Layout<bumper_responder_options>
-    : LayoutOf<ResponderOptions, BUMPER_FIRST_SIZE(bumper_responder_options, skipping)> {};
+    : LayoutOf<ResponderOptions, BUMPER_FIRST_SIZE(bumper_responder_options, metre)> {};
 template <>
 struct Layout<bumper_wall_selection>
     : LayoutOf<FlatWallSelection, BUMPER_FIRST_SIZE(bumper_wall_selection, reach_below)> {};
@@ -210,7 +214,7 @@ struct Layout<bumper_vehicle_parameters>
                BUMPER_FIRST_SIZE(bumper_vehicle_parameters, mass_centre_height)> {};
 template <>
 struct Layout<bumper_vehicle_options>
-    : LayoutOf<VehicleOptions, BUMPER_FIRST_SIZE(bumper_vehicle_options, finite_rotation)> {};
+    : LayoutOf<VehicleOptions, BUMPER_FIRST_SIZE(bumper_vehicle_options, up)> {};
 template <>
 struct Layout<bumper_pair_options>
     : LayoutOf<PairOptions, BUMPER_FIRST_SIZE(bumper_pair_options, reserved)> {};

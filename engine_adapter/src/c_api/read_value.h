@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -35,6 +36,11 @@ template <Enumeration E>
 void read(const Name& name, std::int32_t from, E& to) {
   requireEnumerator(name, from, countOf<E>);
   to = static_cast<E>(from);
+}
+
+template <int n>
+void read(const Name& name, const double (&from)[n], Eigen::Matrix<double, n, 1>& to) {
+  for (int i = 0; i < n; ++i) read({.text = "", .of = &name, .index = i}, from[i], to[i]);
 }
 
 inline void read(const Name& /*name*/, const char* from, std::string& to) {

@@ -22,12 +22,6 @@ void requireGeoms(dGeomID a, dGeomID b) {
 // ODE's dCollide gives no more.
 constexpr int mostContacts = 65535;
 
-void requireIndex(std::size_t index, std::size_t count, const char* things) {
-  if (index < count) return;
-  refuse({"index"},
-         "is " + std::to_string(index) + ": there are " + std::to_string(count) + ' ' + things);
-}
-
 }  // namespace
 
 extern "C" {

@@ -23,6 +23,12 @@ void refuseHandle(const char* name, std::uint64_t handle, const char* kind) {
   throw StaleHandle(std::string(name) + " names no " + kind + ", or none any more");
 }
 
+void requireIndex(std::size_t index, std::size_t count, const char* things) {
+  if (index < count) return;
+  refuse({"index"},
+         "is " + std::to_string(index) + ": there are " + std::to_string(count) + ' ' + things);
+}
+
 VehicleId idOf(const Session& session, const char* name, bumper_vehicle vehicle) {
   const VehicleId id{numberOf(session, vehicle.value)};
   try {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <utility>
@@ -18,6 +19,7 @@ struct Session {
   Responder responder;
   std::span<const ImpactEvent> events{};  ///< of the last step; empty once they may be void
   std::uint32_t tag = 0;                  ///< marks the handles of its vehicles and barriers
+  std::map<dSpaceID, const SpaceBarriers*> spaces{};  ///< the responder's own
 };
 
 /// The only state that is the whole program's: handles that are given again after their thing is
@@ -37,6 +39,9 @@ inline std::uint64_t handleOf(const Session& session, int id) {
   return (static_cast<std::uint64_t>(session.tag) << 32U) | (static_cast<std::uint32_t>(id) + 1U);
 }
 
+/// Throws Error unless index < count, of `things`.
+void requireIndex(std::size_t index, std::size_t count, const char* things);
+
 /// Throw StaleHandle unless the thing is registered.
 VehicleId idOf(const Session& session, const char* name, bumper_vehicle vehicle);
 BarrierId idOf(const Session& session, const char* name, bumper_barrier barrier);
@@ -47,12 +52,13 @@ int withSession(const char* function, bumper_responder responder, const Call& ca
   return guarded(function, [&] { return call(sessionOf(responder)); });
 }
 
-/// Those that change what is registered: events are void afterwards.
+/// Those that change what is registered: events, and names in them, may be void by then, even if
+/// memory runs out in the middle.
 template <typename Call>
 int changing(const char* function, bumper_responder responder, const Call& call) noexcept {
   return withSession(function, responder, [&](Session& session) {
-    call(session);
     session.events = {};
+    call(session);
     return int{BUMPER_OK};
   });
 }

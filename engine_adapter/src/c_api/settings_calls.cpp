@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "bumper/response/presets.h"
-#include "fields.h"
+#include "session.h"
 
 namespace bumper::c_api {
 
@@ -72,10 +72,7 @@ int bumper_preset_count() { return static_cast<int>(presetNames().size()); }
 int bumper_get_preset(size_t index, const char** name, bumper_response_settings* settings) {
   return guarded("bumper_get_preset", [&] {
     const auto names = presetNames();
-    if (index >= names.size()) {
-      refuse({"index"}, "is " + std::to_string(index) + ": there are " +
-                            std::to_string(names.size()) + " presets");
-    }
+    requireIndex(index, names.size(), "presets");
     if (name == nullptr && settings == nullptr) refuse({"name"}, "is null, and settings too");
     if (settings != nullptr) givePreset(names[index], settings);
     if (name != nullptr) write(names[index], *name);

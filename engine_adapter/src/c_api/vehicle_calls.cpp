@@ -66,10 +66,10 @@ int bumper_parameters_from_bodies(dBodyID chassis, const bumper_vehicle_options*
     requireNumber({"mass_centre_to_rear"}, mass_centre_to_rear);
     requireNumber({"width"}, width);
     requireNumber({"mass_centre_height"}, mass_centre_height);
-    giveParameters(
-        parametersFromBodies(chassis, vehicleOptions(options).linkedBodies, mass_centre_to_front,
-                             mass_centre_to_rear, width, mass_centre_height),
-        parameters);
+    const VehicleOptions known = vehicleOptions(options);
+    giveParameters(parametersFromBodies(chassis, known.linkedBodies, mass_centre_to_front,
+                                        mass_centre_to_rear, width, mass_centre_height, known.axes),
+                   parameters);
     return int{BUMPER_OK};
   });
 }
@@ -80,9 +80,9 @@ int bumper_parameters_from_geoms(dBodyID chassis, const bumper_vehicle_options* 
     required("chassis", chassis);
     required("parameters", parameters);
     requireNumber({"mass_centre_height"}, mass_centre_height);
-    giveParameters(
-        parametersFromGeoms(chassis, vehicleOptions(options).linkedBodies, mass_centre_height),
-        parameters);
+    const VehicleOptions known = vehicleOptions(options);
+    giveParameters(parametersFromGeoms(chassis, known.linkedBodies, mass_centre_height, known.axes),
+                   parameters);
     return int{BUMPER_OK};
   });
 }

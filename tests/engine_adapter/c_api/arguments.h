@@ -65,6 +65,24 @@ class CArguments : public testing::Test {
     });
   }
 
+  /// A direction: each of its numbers, and one that is not unit.
+  template <typename Struct>
+  static void refuseDirection(const char* function, const std::string& argument,
+                              const Struct& valid, double (Struct::*member)[3],
+                              const Call<Struct>& call) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      refuseNumber(function, argument + '[' + std::to_string(i) + ']', {-3.0, 3.0},
+                   [&](double value) {
+                     Struct changed = valid;
+                     (changed.*member)[i] = value;
+                     return call(&changed);
+                   });
+    }
+    Struct zero = valid;
+    for (double& each : zero.*member) each = 0.0;
+    expectRefused(function, "", call(&zero));
+  }
+
   /// Sizes that a struct that is given cannot have, and members that the library does not know.
   template <typename Struct>
   static void refuseSizes(const char* function, const std::string& argument, const Struct& valid,

@@ -64,6 +64,8 @@ TEST_F(CArguments, OfAResponderAreRefused) {
   refuseMember<Options>(call, "options.delivery", valid, &Options::delivery, 2, with);
   refuseMember<Options>(call, "options.guard_contacts", valid, &Options::guard_contacts, 2, with);
   refuseMember<Options>(call, "options.skipping", valid, &Options::skipping, 2, with);
+  refuseDirection<Options>(call, "options.up", valid, &Options::up, with);
+  refuseMember<Options>(call, "options.metre", valid, &Options::metre, {0.0, -1.0}, with);
   for (const bool isOfWalls : {true, false}) {
     refuseSettings(call, isOfWalls ? "options.response" : "options.vehicle_response",
                    [&](const Settings* settings) {
@@ -219,6 +221,67 @@ TEST_F(CArguments, OfBarriersAreRefused) {
   dGeomDestroy(box);
 }
 
+TEST_F(CArguments, OfSpacesAreRefused) {
+  const bumper_responder responder = world_.responder;
+  const dSpaceID space = dSimpleSpaceCreate(nullptr);
+  const dGeomID box = dCreateBox(space, 1.0, 1.0, 1.0);
+  dGeomSetPosition(box, 500.0, 0.0, 0.5);
+  bumper_barrier barrier{};
+  dGeomID geom = nullptr;
+  const char* reason = nullptr;
+  const auto refuse = [&](const char* function, const auto& call) {
+    refuseResponder(function, [&](bumper_responder stale) { return call(stale, space); });
+    expectRefused(function, "space", call(responder, nullptr));
+    expectRefused(function, "space", call(responder, space));
+  };
+  refuse("bumper_update_space", bumper_update_space);
+  refuse("bumper_remove_space", bumper_remove_space);
+  refuse("bumper_left_geom_count", bumper_left_geom_count);
+  const auto getBarrier = [&](bumper_responder some, dSpaceID which) {
+    return bumper_get_space_barrier(some, which, 0, &barrier);
+  };
+  const auto getLeft = [&](bumper_responder some, dSpaceID which) {
+    return bumper_get_left_geom(some, which, 0, &geom, &reason);
+  };
+  refuse("bumper_get_space_barrier", getBarrier);
+  refuse("bumper_get_left_geom", getLeft);
+
+  const char* add = "bumper_add_space";
+  refuseResponder(add,
+                  [&](bumper_responder stale) { return bumper_add_space(stale, space, nullptr); });
+  expectRefused(add, "space", bumper_add_space(responder, nullptr, nullptr));
+  const auto options = initialised(bumper_init_barrier_options);
+  refuseSizes<bumper_barrier_options>(
+      add, "options", options,
+      [&](const bumper_barrier_options* some) { return bumper_add_space(responder, space, some); });
+  refuseSettings(add, "options.response", [&](const Settings* settings) {
+    bumper_barrier_options some = options;
+    some.response = settings;
+    return bumper_add_space(responder, space, &some);
+  });
+  ASSERT_EQ(bumper_add_space(responder, space, &options), 1) << bumper_last_error();
+  expectRefused(add, "space", bumper_add_space(responder, space, nullptr));
+  for (const std::size_t index : {std::size_t{1}, hugeCount}) {
+    expectRefused("bumper_get_space_barrier", "index",
+                  bumper_get_space_barrier(responder, space, index, &barrier));
+    expectRefused("bumper_get_left_geom", "index",
+                  bumper_get_left_geom(responder, space, index, &geom, &reason));
+  }
+  expectRefused("bumper_get_space_barrier", "barrier",
+                bumper_get_space_barrier(responder, space, 0, nullptr));
+  dCreatePlane(space, 0.0, 0.0, 1.0, -1.0);
+  ASSERT_EQ(bumper_update_space(responder, space), 1) << bumper_last_error();
+  ASSERT_EQ(bumper_left_geom_count(responder, space), 1);
+  expectRefused("bumper_get_left_geom", "geom",
+                bumper_get_left_geom(responder, space, 0, nullptr, &reason));
+  expectRefused("bumper_get_left_geom", "reason",
+                bumper_get_left_geom(responder, space, 0, &geom, nullptr));
+  EXPECT_EQ(barrier.value, 0U);
+  EXPECT_EQ(geom, nullptr);
+  EXPECT_EQ(bumper_remove_space(responder, space), BUMPER_OK);
+  dSpaceDestroy(space);
+}
+
 TEST_F(CArguments, OfVehiclesAreRefused) {
   using Options = bumper_vehicle_options;
   const char* call = "bumper_add_vehicle";
@@ -245,6 +308,8 @@ TEST_F(CArguments, OfVehiclesAreRefused) {
   refuseMember<Options>(call, "options.finite_rotation", valid, &Options::finite_rotation, 2, with);
   refuseMember<Options>(call, "options.tilt_limit", valid, &Options::tilt_limit, {0.0, -1.0, 1.6},
                         with);
+  refuseDirection<Options>(call, "options.forward", valid, &Options::forward, with);
+  refuseDirection<Options>(call, "options.up", valid, &Options::up, with);
   const Call<bumper_band> withBand = [&](const bumper_band* band) {
     Options options = valid;
     options.band = band;
@@ -285,6 +350,7 @@ TEST_F(CArguments, OfMeasuredParametersAreRefused) {
     Options options = initialised(bumper_init_vehicle_options);
     const Call<Options> with = [&](const Options* some) { return measure(body, some, &result); };
     refuseSizes<Options>(function, "options", options, with);
+    refuseDirection<Options>(function, "options.forward", options, &Options::forward, with);
     options.linked_body_count = 1;
     expectRefused(function, "options.linked_bodies", with(&options));
     const dBodyID bodies[] = {nullptr};

@@ -101,6 +101,15 @@ TEST(CFailingMemory, InAddingAGeom) {
   });
 }
 
+TEST(CFailingMemory, InAddingASpace) {
+  OdeWorld other;
+  for (const double x : {200.0, 210.0}) {
+    dGeomSetPosition(dCreateBox(other.space, 1.0, 1.0, 1.0), x, 0.0, 0.5);
+  }
+  expectNoEffect(
+      [&](CWorld& world) { return bumper_add_space(world.responder, other.space, nullptr); });
+}
+
 TEST(CFailingMemory, InUpdatingAScene) {
   expectNoEffect([](CWorld& world) {
     return bumper_update_scene(world.responder, world.barrier, &world.wall.scene);

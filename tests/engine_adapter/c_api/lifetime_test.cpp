@@ -206,6 +206,42 @@ TEST(CEvents, AreVoidOnceTheirNamesMayBe) {
   EXPECT_EQ(bumper_get_event(world.responder, 0, &event), BUMPER_INVALID_ARGUMENT);
 }
 
+TEST(CSpaces, AreKeptInStep) {
+  CWorld world;
+  const bumper_responder responder = world.responder;
+  const dSpaceID space = dSimpleSpaceCreate(world.ode.space);
+  const dGeomID first = dCreateBox(space, 1.0, 1.0, 1.0);
+  dGeomSetPosition(first, 100.0, 0.0, 0.5);
+  const dGeomID plane = dCreatePlane(space, 0.0, 0.0, 1.0, -10.0);
+  ASSERT_EQ(bumper_add_space(responder, space, nullptr), 1) << bumper_last_error();
+  bumper_barrier barrier{};
+  ASSERT_EQ(bumper_get_space_barrier(responder, space, 0, &barrier), BUMPER_OK);
+  dGeomID geom = nullptr;
+  ASSERT_EQ(bumper_get_geom(responder, barrier, &geom), BUMPER_OK);
+  EXPECT_EQ(geom, first);
+  ASSERT_EQ(bumper_left_geom_count(responder, space), 1);
+  const char* reason = "";
+  ASSERT_EQ(bumper_get_left_geom(responder, space, 0, &geom, &reason), BUMPER_OK);
+  EXPECT_EQ(geom, plane);
+  EXPECT_STRNE(reason, "");
+
+  // One comes into the cars' way, the other one goes.
+  const dGeomID second = dCreateBox(space, 1.0, 40.0, 1.0);
+  dGeomSetPosition(second, 5.0, 0.0, 0.5);
+  dGeomDestroy(first);
+  ASSERT_EQ(bumper_update_space(responder, space), 1) << bumper_last_error();
+  EXPECT_EQ(bumper_get_geom(responder, barrier, &geom), BUMPER_STALE_HANDLE);
+  ASSERT_EQ(bumper_get_space_barrier(responder, space, 0, &barrier), BUMPER_OK);
+  ASSERT_EQ(bumper_get_geom(responder, barrier, &geom), BUMPER_OK);
+  EXPECT_EQ(geom, second);
+  for (int i = 0; i < 200; ++i) world.step();
+  EXPECT_LT(dBodyGetPosition(world.car.body)[0], 4.5 - 2.0);
+
+  ASSERT_EQ(bumper_remove_space(responder, space), BUMPER_OK);
+  EXPECT_EQ(bumper_get_geom(responder, barrier, &geom), BUMPER_STALE_HANDLE);
+  EXPECT_EQ(bumper_update_space(responder, space), BUMPER_INVALID_ARGUMENT);
+}
+
 TEST(CWarnings, AreText) {
   CWorld world;
   const BoxCar damped(world.ode.world);

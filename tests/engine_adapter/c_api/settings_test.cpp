@@ -136,12 +136,17 @@ TEST(CSettings, OfAResponderReachCpp) {
   options.delivery = BUMPER_DELIVERY_STATE_RESET;
   options.guard_contacts = 0;
   options.skipping = 0;
+  options.up[1] = 1.0;
+  options.up[2] = 0.0;
+  options.metre = 100.0;
   ResponderOptions read;
   c_api::read({"options"}, &options, read);
   EXPECT_FALSE(read.vehiclesCollide);
   EXPECT_EQ(read.delivery, Delivery::state_reset);
   EXPECT_FALSE(read.guardContacts);
   EXPECT_FALSE(read.skipping);
+  EXPECT_EQ(read.axes.up, Eigen::Vector3d::UnitY());
+  EXPECT_EQ(read.axes.metre, 100.0);
 }
 
 TEST(CSettings, OfAVehicleReachCpp) {
@@ -152,6 +157,8 @@ TEST(CSettings, OfAVehicleReachCpp) {
   options.tilt_limit = 0.4;
   options.mover = BUMPER_MOVER_OTHER_HOST;
   options.finite_rotation = 1;
+  options.forward[0] = 0.0;
+  options.forward[1] = 1.0;
   VehicleOptions read;
   c_api::read({"options"}, &options, read);
   EXPECT_EQ(read.name, "Käfer");
@@ -160,6 +167,8 @@ TEST(CSettings, OfAVehicleReachCpp) {
   EXPECT_EQ(read.tiltLimit, 0.4);
   EXPECT_EQ(read.mover, Mover::other_host);
   EXPECT_TRUE(read.finiteRotation);
+  EXPECT_EQ(read.axes.forward, Eigen::Vector3d::UnitY());
+  EXPECT_EQ(read.axes.up, Eigen::Vector3d::UnitZ());
 }
 
 }  // namespace

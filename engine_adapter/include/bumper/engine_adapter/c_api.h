@@ -4,7 +4,8 @@
 /*
  * Bumper for C (C99 and later) and for whatever can call C. It is the Responder of responder.h,
  * call by call; what a thing does is said there, what is special in C is said here. SI units; world
- * right-handed, z up; vehicle frame x forward, y left, z up, origin at the mass centre.
+ * right-handed, z up, unless bumper_responder_options says otherwise; vehicle frame x forward, y
+ * left, z up, origin at the mass centre.
  *
  * Answers. Every function that returns int gives 0 or more if it succeeded (a number of things, or
  * 1 for yes) and a negative bumper_status if not. A call that failed has changed nothing and
@@ -46,8 +47,7 @@ extern "C" {
 #pragma GCC visibility push(default)
 #endif
 
-/* ------------------------------------------------------------------------------------- errors --
- */
+/* -- errors -- */
 
 enum bumper_status {
   BUMPER_OK = 0,
@@ -62,8 +62,7 @@ enum bumper_status {
  * the thread's next call that fails. */
 const char* bumper_last_error(void);
 
-/* ------------------------------------------------------------------------------------ handles --
- */
+/* -- handles -- */
 
 typedef struct bumper_responder {
   uint64_t value;
@@ -81,8 +80,7 @@ typedef struct bumper_state {
   uint64_t value;
 } bumper_state;
 
-/* ----------------------------------------------------------------- how walls respond: settings --
- */
+/* -- how walls respond: settings -- */
 
 enum bumper_curve_shape {
   BUMPER_CURVE_COSINE = 0, /* head_on + (grazing - head_on) cos a; constant if both are equal */
@@ -141,8 +139,7 @@ int bumper_preset_count(void);
 int bumper_get_preset(size_t index, const char** name, bumper_response_settings* settings);
 int bumper_find_preset(const char* name, bumper_response_settings* settings);
 
-/* ---------------------------------------------------------------------------------- responder --
- */
+/* -- responder -- */
 
 enum bumper_delivery { BUMPER_DELIVERY_FORCE_PULSE = 0, BUMPER_DELIVERY_STATE_RESET = 1 };
 
@@ -155,6 +152,8 @@ typedef struct bumper_responder_options {
   int32_t delivery;                                 /* bumper_delivery */
   int32_t guard_contacts;                           /* 0 or 1 */
   int32_t skipping;                                 /* 0 or 1 */
+  double up[3]; /* of the world, unit: WorldAxes of world_axes.h */
+  double metre; /* so many of the world's length units make one */
 } bumper_responder_options;
 
 int bumper_init_responder_options(bumper_responder_options* options, size_t size);
@@ -166,8 +165,7 @@ int bumper_create_responder(dWorldID world, const bumper_responder_options* opti
 /* Its vehicles' and barriers' handles are stale from then on; saved states are kept. */
 int bumper_destroy_responder(bumper_responder responder);
 
-/* ----------------------------------------------------------------------------------- barriers --
- */
+/* -- barriers -- */
 
 /* WallSelection of walls.h. */
 typedef struct bumper_wall_selection {
@@ -243,6 +241,24 @@ int bumper_remove_barrier(bumper_responder responder, bumper_barrier barrier);
 /* The geom in a barrier's contacts; null once its space was destroyed. */
 int bumper_get_geom(bumper_responder responder, bumper_barrier barrier, dGeomID* geom);
 
+/* Every geom in a space that stands still and has a wall, as a barrier of its own; `options` may be
+ * null. Call bumper_update_space() after geoms have come, gone or moved. Both give the number of
+ * barriers. The space may be gone when it is removed; one that was not added is an error. */
+int bumper_add_space(bumper_responder responder, dSpaceID space,
+                     const bumper_barrier_options* options);
+int bumper_update_space(bumper_responder responder, dSpaceID space);
+int bumper_remove_space(bumper_responder responder, dSpaceID space);
+
+/* Its barriers, `index` from 0; their geoms by bumper_get_geom(). */
+int bumper_get_space_barrier(bumper_responder responder, dSpaceID space, size_t index,
+                             bumper_barrier* barrier);
+
+/* Geoms in it that stand still and are no barrier, and why: how many, and each of them. `reason` is
+ * valid until the space is updated or removed. */
+int bumper_left_geom_count(bumper_responder responder, dSpaceID space);
+int bumper_get_left_geom(bumper_responder responder, dSpaceID space, size_t index, dGeomID* geom,
+                         const char** reason);
+
 /* WallReport of walls.h: which triangles were kept or dropped as walls. */
 typedef struct bumper_wall_report {
   size_t size;
@@ -266,8 +282,7 @@ int bumper_init_wall_report(bumper_wall_report* report, size_t size);
 int bumper_get_wall_report(bumper_responder responder, bumper_barrier barrier,
                            bumper_wall_report* report);
 
-/* ----------------------------------------------------------------------------------- vehicles --
- */
+/* -- vehicles -- */
 
 /* VehicleParameters of vehicle_parameters.h; all positive. */
 typedef struct bumper_vehicle_parameters {
@@ -309,13 +324,14 @@ typedef struct bumper_vehicle_options {
   double tilt_limit;       /* rad, above 0 and below pi/2 */
   int32_t mover;           /* bumper_mover */
   int32_t finite_rotation; /* 0 or 1 */
+  double forward[3];       /* of the chassis in its own frame, unit … */
+  double up[3];            /* … and perpendicular: ChassisAxes of world_axes.h */
 } bumper_vehicle_options;
 
 int bumper_init_vehicle_options(bumper_vehicle_options* options, size_t size);
 
-/* parametersFromBodies() and parametersFromGeoms() of vehicle.h. The linked bodies are those of
- * `options`, which may be null if there are none; its other members do not matter. `parameters`
- * needs its size. */
+/* parametersFromBodies() and parametersFromGeoms() of vehicle.h. Linked bodies and axes are those
+ * of `options`, which may be null: none, and the defaults. `parameters` needs its size. */
 int bumper_parameters_from_bodies(dBodyID chassis, const bumper_vehicle_options* options,
                                   double mass_centre_to_front, double mass_centre_to_rear,
                                   double width, double mass_centre_height,
@@ -353,7 +369,7 @@ typedef struct bumper_motion {
 int bumper_init_motion(bumper_motion* motion, size_t size);
 int bumper_get_motion(bumper_responder responder, bumper_vehicle vehicle, bumper_motion* motion);
 
-/* -------------------------------------------------------------------------------- every step -- */
+/* -- every step -- */
 
 /* For the near callback: 1 if Bumper owns every contact of this pair, 0 if not. Neither geom may be
  * null. */
@@ -437,7 +453,8 @@ typedef struct bumper_event {
 int bumper_init_event(bumper_event* event, size_t size);
 
 /* An event of the last bumper_step(), `index` from 0. Events are void after any call that adds,
- * updates or removes something, and after bumper_restore(): the index is an error then. */
+ * updates or removes something, and after bumper_restore(), even if that failed: the index is an
+ * error then. */
 int bumper_get_event(bumper_responder responder, size_t index, bumper_event* event);
 
 /* The words that files and logs use, valid for ever; "unknown" for any other number. */
@@ -470,8 +487,7 @@ int bumper_get_vehicle_issues(bumper_responder responder, bumper_vehicle vehicle
 int bumper_warning_count(bumper_responder responder);
 int bumper_get_warning(bumper_responder responder, size_t index, const char** text);
 
-/* --------------------------------------------------------------------------- save and restore --
- */
+/* -- save and restore -- */
 
 /* A new state, to be destroyed by bumper_destroy_state(). With the bodies' own states in ODE the
  * simulation continues bit for bit. It may be restored any number of times, and outlive its
@@ -480,8 +496,7 @@ int bumper_save(bumper_responder responder, bumper_state* state);
 int bumper_restore(bumper_responder responder, bumper_state state);
 int bumper_destroy_state(bumper_state state);
 
-/* ------------------------------------------------------------------------------------ threads --
- */
+/* -- threads -- */
 
 /* trimeshLock() of trimesh_lock.h: ODE's trimesh collider is not thread safe. Hold it around your
  * own dCollide and dSpaceCollide where several threads collide, not around calls of Bumper's.
