@@ -107,6 +107,15 @@ function(bumper_program name)
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
 endfunction()
 
+# The same for sources in C, which see what any user's strict C99 sees.
+function(bumper_c_options target)
+  set_target_properties(${target} PROPERTIES C_STANDARD 99 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF
+                                             POSITION_INDEPENDENT_CODE ON UNITY_BUILD OFF)
+  target_compile_options(
+    ${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -ffp-contract=off
+                      $<$<BOOL:${BUMPER_WARNINGS_AS_ERRORS}>:-Werror>)
+endfunction()
+
 # bumper_install_program(<name> <component> [LIBEXEC] [EXPORT <set>])
 # For users (bin), or for libraries and programs alone (libexec).
 function(bumper_install_program name component)
