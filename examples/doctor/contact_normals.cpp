@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace bumper::doctor {
 
@@ -17,6 +16,10 @@ constexpr double sameFace = 0.966;  // cos 15°
 Eigen::Vector3d trueNormal(const Wall& wall, const Eigen::Vector3d& inside) {
   return wall.normal.dot(inside - wall.corners[0]) < 0.0 ? Eigen::Vector3d(-wall.normal)
                                                          : wall.normal;
+}
+
+bool isOfWall(const Eigen::Vector3d& trueNormal, const DrivingPlane& plane) {
+  return trueNormal.dot(plane.axes.col(1)) > sameFace;
 }
 
 NormalCount countNormals(const Subject& subject, std::span<const Place> places,
@@ -41,7 +44,7 @@ NormalCount countNormals(const Subject& subject, std::span<const Place> places,
         if (contact.wall < 0) continue;
         const Eigen::Vector3d right =
             trueNormal(walls[static_cast<std::size_t>(contact.wall)], inside);
-        if (right.dot(place.plane.axes.col(1)) < sameFace) continue;
+        if (!isOfWall(right, place.plane)) continue;
         ++judged;
         if (right.dot(contact.normal) < std::cos(wrongNormal)) ++wrong;
       }

@@ -33,6 +33,9 @@ struct NormalCount {
 /// vehicle.
 Eigen::Vector3d trueNormal(const Wall& wall, const Eigen::Vector3d& inside);
 
+/// Whether a face with such a normal belongs to the wall along a plane's x axis, to 15°.
+bool isOfWall(const Eigen::Vector3d& trueNormal, const DrivingPlane& plane);
+
 /// At each place the vehicle stands in the wall as deep as a step takes it, at five angles from 2°
 /// to 90°.
 NormalCount countNormals(const Subject& subject, std::span<const Place> places,

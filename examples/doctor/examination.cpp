@@ -11,9 +11,10 @@ namespace {
 Tunnelling lowestSpeed(const Subject& subject, const std::vector<Place>& places, Approach approach,
                        Rig& rig) {
   Tunnelling lowest;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto speed = tunnellingSpeed(subject, places[i], approach, rig);
-    if (speed && (!lowest.speed || *speed < *lowest.speed)) lowest = {speed, i};
+  for (const Place& place : places) {
+    const auto through = tunnellingSpeed(subject, place, approach, rig);
+    if (through && (!lowest.speed || through->speed < *lowest.speed))
+      lowest = {through->speed, through->drive};
   }
   return lowest;
 }

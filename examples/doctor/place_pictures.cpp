@@ -21,6 +21,11 @@ constexpr Rgb jointColour{200, 40, 40};
 constexpr Rgb bumperColour{30, 100, 210};
 constexpr Rgb startColour{90, 90, 90};
 
+std::string legendOf(const WorstPlace& place) {
+  if (place.isStanding) return " (red; right: blue; the wall's own: green)";
+  return place.drive ? " (contact joints: red, Bumper: blue)" : "";
+}
+
 class Painter {
  public:
   Painter(const Subject& subject, const Examination& examination)
@@ -67,11 +72,13 @@ class Painter {
     Eigen::Vector2d out = place.out.head<2>();
     out = out.norm() > 1e-6 ? Eigen::Vector2d(out.normalized()) : Eigen::Vector2d::UnitX();
     const Eigen::Vector2d along(-out.y(), out.x());
-    const double distance = 2.4 * subject_.length();
+    // A step of millimetres is seen from near only.
+    const bool isSmall = !place.drive && !place.triangle;
+    const double distance = (isSmall ? 0.4 : 2.4) * subject_.length();
     const Eigen::Vector2d aside = distance * (0.75 * out + 0.35 * along);
     SnapshotOptions options;
     options.view = SnapshotView::fixed;
-    options.title = place.words;
+    options.title = place.words + legendOf(place);
     options.fixed = {.eye = place.position + Eigen::Vector3d(aside.x(), aside.y(), 0.85 * distance),
                      .target = place.position};
     return options;
@@ -123,6 +130,7 @@ class Painter {
       if (contact.wall < 0) continue;
       const Eigen::Vector3d right =
           trueNormal(walls_[static_cast<std::size_t>(contact.wall)], inside);
+      if (place.isStanding && !isOfWall(right, place.drive->plane)) continue;
       const bool isWrong = right.dot(contact.normal) < std::cos(wrongNormal);
       line(image, contact.place, contact.place + length * right, trueColour, 2.0, pixel, true);
       line(image, contact.place, contact.place + length * contact.normal,
@@ -141,7 +149,7 @@ class Painter {
 
   template <typename Pixel>
   void markPoint(Image& image, const WorstPlace& place, const Pixel& pixel) const {
-    const double size = 0.2 * subject_.length();
+    const double size = 0.04 * subject_.length();
     line(image, place.position + size * (place.out + Eigen::Vector3d::UnitZ()), place.position,
          wrongColour, 2.5, pixel, true);
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "bumper/engine_adapter/vehicle.h"
@@ -76,26 +77,42 @@ class Chooser {
 
     // Onto the wall, at the height of the band in which it stands.
     WallLine line;
-    const std::array<double, 3> heights = bandHeights();
+    const std::array<double, 9> heights = this->heights();
+    std::vector<double> inBand;
+    std::ranges::copy_if(heights, std::back_inserter(inBand), [&](double offset) {
+      const double height = offset + subject_.vehicle.massCentreHeight;
+      return height >= band_.bottom && height <= band_.top;
+    });
     const bool isCut = std::ranges::any_of(
-        heights, [&](double offset) { return cutWall(wall, plane, offset, line); });
+        inBand, [&](double offset) { return cutWall(wall, plane, offset, line); });
     if (!isCut) return std::nullopt;
     const Vector2 direction = (line.to - line.from).normalized();
     const double share = std::clamp(-line.from.dot(direction), 0.0, line.length());
     plane.origin = plane.world(line.from + share * direction);
     const double reach = 5.0 * subject_.length();
-    place.lines = sections_.around(plane, reach + subject_.length(), heights);
-    place.path = pathAlong(place.lines, {.reach = reach,
-                                         .feature = subject_.smallestFeature(),
-                                         .gap = 15.0 * subject_.smallestFeature(),
-                                         .width = 1.15 * subject_.vehicle.width});
+    const double radius = reach + subject_.length();
+    place.lines = sections_.around(plane, radius, heights);
+    place.path = pathAlong(sections_.around(plane, radius, inBand), place.lines,
+                           {.reach = reach,
+                            .feature = subject_.smallestFeature(),
+                            .gap = 15.0 * subject_.smallestFeature(),
+                            .width = subject_.roomBeside()});
     return place;
   }
 
-  [[nodiscard]] std::array<double, 3> bandHeights() const {
+  /// The mass centre's first, then others over all that the box takes up, or the band if that is
+  /// more: what is in the way at one of them is in the way.
+  [[nodiscard]] std::array<double, 9> heights() const {
     const double centre = subject_.vehicle.massCentreHeight;
-    const double inside = 0.02 * (band_.top - band_.bottom);
-    return {0.0, band_.bottom - centre + inside, band_.top - centre - inside};
+    const double reach = 0.5 * boxHeight(subject_.vehicle);
+    const double low = std::min(band_.bottom - centre, -reach);
+    const double high = std::max(band_.top - centre, reach);
+    std::array<double, 9> all{};
+    for (std::size_t k = 1; k < all.size(); ++k) {
+      const double share = (static_cast<double>(k) - 0.9) / (static_cast<double>(all.size()) - 1.8);
+      all.at(k) = low + share * (high - low);
+    }
+    return all;
   }
 
   /// Whether a vehicle can stand beside the wall, along it or across.

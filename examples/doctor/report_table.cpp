@@ -80,7 +80,7 @@ void printDrives(const Report& report) {
           fixed(e.bumper.worstLoss(), 2) + " m/s");
   compare("impacts that gained energy", of(e.joints.gained(), e.joints.impacts.size()),
           of(e.bumper.gained(), e.bumper.impacts.size()));
-  compare("most energy, before an impact = 1", fixed(e.joints.mostEnergy(), 3),
+  compare("most energy after, before = 1", fixed(e.joints.mostEnergy(), 3),
           fixed(e.bumper.mostEnergy(), 3));
   compare("impacts that led through", of(e.joints.through(), e.joints.impacts.size()),
           of(e.bumper.through(), e.bumper.impacts.size()));

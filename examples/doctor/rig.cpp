@@ -23,8 +23,7 @@ Rig::~Rig() {
 void Rig::makeVehicle(const VehicleParameters& vehicle) {
   body_ = dBodyCreate(world_);
   const double length = vehicle.massCentreToFront + vehicle.massCentreToRear;
-  // As high above the ground as a car; the mass centre is in the middle of the box.
-  const double height = 1.28 * vehicle.massCentreHeight;
+  const double height = boxHeight(vehicle);
   box_ = dCreateBox(nullptr, length, vehicle.width, height);
   dGeomSetBody(box_, body_);
   dGeomSetOffsetPosition(box_, 0.5 * (vehicle.massCentreToFront - vehicle.massCentreToRear), 0.0,

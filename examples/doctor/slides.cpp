@@ -1,7 +1,9 @@
 #include "slides.h"
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "bumper/response/outline.h"
 
 namespace bumper::doctor {
 
@@ -51,10 +53,29 @@ void Slides::add(std::size_t index, bool isBackwards) {
        .loss = {}});
 }
 
+void Slides::keepBeside(DriveTrace& trace, const Place& place) const {
+  const auto corners = Outline(subject_.vehicle).corners();
+  const auto leaves = [&](const DriveState& state) {
+    return std::ranges::any_of(corners, [&](const Vector2& corner) {
+      const Eigen::Vector3d point =
+          state.position + state.orientation * Eigen::Vector3d(corner.x(), corner.y(), 0.0);
+      const Vector2 local = place.plane.local(point).head<2>();
+      return local.x() > place.path.points.front().x() &&
+             local.x() < place.path.points.back().x() &&
+             place.path.distanceTo(local) > subject_.roomBeside();
+    });
+  };
+  const auto first = std::ranges::find_if(trace.states, leaves);
+  trace.states.erase(first, trace.states.end());
+}
+
 std::vector<Slide> Slides::driven(Rig& rig) const {
   std::vector<Slide> slides = drives_;
-  for (Slide& slide : slides)
-    slide.loss = suddenLoss(rig.run(slide.drive), slide.drive, subject_.step, caughtWithin);
+  for (Slide& slide : slides) {
+    DriveTrace trace = rig.run(slide.drive);
+    keepBeside(trace, places_[slide.place]);
+    slide.loss = suddenLoss(trace, slide.drive, subject_.step, caughtWithin);
+  }
   return slides;
 }
 

@@ -38,6 +38,9 @@ class Slides {
 
  private:
   void add(std::size_t index, bool isBackwards);
+  /// Cuts off what followed after the vehicle left the room beside the wall: what it hits there is
+  /// in its way.
+  void keepBeside(DriveTrace& trace, const Place& place) const;
 
   const Subject& subject_;
   std::span<const Place> places_;

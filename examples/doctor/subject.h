@@ -25,7 +25,15 @@ struct Subject {
   [[nodiscard]] double smallestFeature() const {
     return length() * (response.smallestFeature > 0.0 ? response.smallestFeature : 1e-4);
   }
+  /// What a slide needs beside a wall, m.
+  [[nodiscard]] double roomBeside() const { return 1.3 * vehicle.width; }
   [[nodiscard]] WallSelection selection() const { return {.scenery = scenery}; }
 };
+
+/// Of the box that stands for a vehicle, m, with the mass centre in its middle: as high above the
+/// ground as a car's.
+inline double boxHeight(const VehicleParameters& vehicle) {
+  return 1.28 * vehicle.massCentreHeight;
+}
 
 }  // namespace bumper::doctor

@@ -45,10 +45,11 @@ SpeedLoss suddenLoss(const DriveTrace& trace, const TestDrive& drive, double ste
 }
 
 double mostEnergy(const DriveTrace& trace) {
-  const double start = trace.states.front().energy;
-  double most = start;
-  for (const DriveState& state : trace.states) most = std::max(most, state.energy);
-  return start > 0.0 ? most / start : 1.0;
+  if (trace.contacts.empty() || trace.states.front().energy <= 0.0) return 0.0;
+  double most = 0.0;
+  for (std::size_t i = trace.contacts.front().step + 1; i < trace.states.size(); ++i)
+    most = std::max(most, trace.states[i].energy);
+  return most / trace.states.front().energy;
 }
 
 bool wentThrough(const DriveTrace& trace, const Place& place) {

@@ -18,7 +18,8 @@ struct SpeedLoss {
 /// `within`: s.
 SpeedLoss suddenLoss(const DriveTrace& trace, const TestDrive& drive, double step, double within);
 
-/// The largest kinetic energy, as a ratio to that at the start.
+/// The largest kinetic energy after the first contact, as a ratio to that at the start; 0 without a
+/// contact.
 double mostEnergy(const DriveTrace& trace);
 
 /// Whether the mass centre went across a wall of the place.

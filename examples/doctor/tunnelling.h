@@ -18,14 +18,16 @@ struct SpeedRange {
 };
 SpeedRange searchedSpeeds(const Subject& subject);
 
-/// The speed from which a vehicle goes through a wall at right angles to it, m/s, to 3 %, by
-/// bisection; it does so if it does from any of four distances, which differ by a quarter of a
-/// step's way. Empty: not even at the highest speed, or there is no room before the wall.
-std::optional<double> tunnellingSpeed(const Subject& subject, const Place& place, Approach approach,
-                                      Rig& rig);
+/// A speed at which a vehicle goes through a wall, and a drive that shows it.
+struct TunnellingDrive {
+  double speed = 0.0;  ///< m/s
+  TestDrive drive;
+};
 
-/// The drive at such a speed that leads through, or the last that was tried.
-TestDrive tunnellingDrive(const Subject& subject, const Place& place, Approach approach,
-                          double speed, int phase);
+/// The speed from which a vehicle goes through a wall at right angles to it, to 3 %, by bisection;
+/// it does so if it does from any of four distances, which differ by a quarter of a step's way.
+/// Empty: not even at the highest speed, or there is no room before the wall.
+std::optional<TunnellingDrive> tunnellingSpeed(const Subject& subject, const Place& place,
+                                               Approach approach, Rig& rig);
 
 }  // namespace bumper::doctor

@@ -53,16 +53,25 @@ std::optional<VehicleParameters> findVehicle(std::string_view name) {
 
 VehicleParameters changed(const VehicleParameters& model, const VehicleChanges& changes) {
   const double before = model.massCentreToFront + model.massCentreToRear;
-  const double length = changes.length.value_or(before);
   VehicleParameters vehicle = model;
-  vehicle.mass = changes.mass.value_or(model.mass);
-  vehicle.width = changes.width.value_or(model.width);
-  vehicle.massCentreHeight = changes.massCentreHeight.value_or(model.massCentreHeight);
-  vehicle.massCentreToFront =
-      changes.massCentreToFront.value_or(model.massCentreToFront * length / before);
-  vehicle.massCentreToRear = length - vehicle.massCentreToFront;
-  vehicle.yawInertia = changes.yawInertia.value_or(model.yawInertia * vehicle.mass / model.mass *
-                                                   length * length / (before * before));
+  if (changes.length) {
+    const double ratio = *changes.length / before;
+    vehicle.massCentreToFront *= ratio;
+    vehicle.massCentreToRear *= ratio;
+    vehicle.yawInertia *= ratio * ratio;
+  }
+  if (changes.mass) {
+    vehicle.yawInertia *= *changes.mass / model.mass;
+    vehicle.mass = *changes.mass;
+  }
+  if (changes.massCentreToFront) {
+    const double length = changes.length.value_or(before);
+    vehicle.massCentreToFront = *changes.massCentreToFront;
+    vehicle.massCentreToRear = length - vehicle.massCentreToFront;
+  }
+  vehicle.width = changes.width.value_or(vehicle.width);
+  vehicle.massCentreHeight = changes.massCentreHeight.value_or(vehicle.massCentreHeight);
+  vehicle.yawInertia = changes.yawInertia.value_or(vehicle.yawInertia);
   validate(vehicle);
   return vehicle;
 }

@@ -12,8 +12,8 @@ namespace bumper::doctor {
 std::span<const std::string_view> vehicleNames();
 std::optional<VehicleParameters> findVehicle(std::string_view name);
 
-/// Outline, mass and the rest as given, what is not is that of a vehicle like `model`: a length or
-/// width scales nothing else but the yaw inertia, which keeps its ratio to mass times length².
+/// What is not given is the model's: the mass centre stays in its place along the length, and the
+/// yaw inertia keeps its ratio to mass times length².
 struct VehicleChanges {
   std::optional<double> length;             ///< m
   std::optional<double> width;              ///< m

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace bumper::doctor {
@@ -70,15 +71,15 @@ void cutAtObstacles(std::span<const WallLine> lines, const Vector2& from, const 
         if (start < least || start > most) high = -1.0;
         return;
       }
-      const auto [first, last] = std::minmax((least - start) / change, (most - start) / change);
+      const auto [first, last] = std::minmax({(least - start) / change, (most - start) / change});
       low = std::max(low, first);
       high = std::min(high, last);
     };
     clip(a.x(), b.x() - a.x(), 0.0, reach);
     clip(a.y(), b.y() - a.y(), limits.feature, limits.width);
     if (low > high) continue;
-    const auto [first, last] = std::minmax(length + a.x() + low * (b.x() - a.x()),
-                                           length + a.x() + high * (b.x() - a.x()));
+    const auto [first, last] = std::minmax(
+        {length + a.x() + low * (b.x() - a.x()), length + a.x() + high * (b.x() - a.x())});
     if (first > 0.0) path.end = std::min(path.end, first);
     if (last < 0.0) path.start = std::max(path.start, last);
     if (first <= 0.0 && last >= 0.0) path.start = path.end = 0.0;
@@ -103,9 +104,20 @@ Vector2 WallPath::pointAt(double length) const {
   return points[leg] + directionAt(length) * (length - lengths[leg]);
 }
 
-WallPath pathAlong(std::span<const WallLine> lines, const PathLimits& limits) {
-  const std::vector<Vector2> ahead = walk(lines, Vector2::UnitX(), limits);
-  const std::vector<Vector2> behind = walk(lines, -Vector2::UnitX(), limits);
+double WallPath::distanceTo(const Vector2& point) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const Vector2 leg = points[i + 1] - points[i];
+    const double share = std::clamp((point - points[i]).dot(leg) / leg.squaredNorm(), 0.0, 1.0);
+    least = std::min(least, (points[i] + share * leg - point).norm());
+  }
+  return least;
+}
+
+WallPath pathAlong(std::span<const WallLine> walls, std::span<const WallLine> obstacles,
+                   const PathLimits& limits) {
+  const std::vector<Vector2> ahead = walk(walls, Vector2::UnitX(), limits);
+  const std::vector<Vector2> behind = walk(walls, -Vector2::UnitX(), limits);
   WallPath path;
   path.points.assign(behind.rbegin(), behind.rend());
   path.points.emplace_back(Vector2::Zero());
@@ -120,7 +132,7 @@ WallPath pathAlong(std::span<const WallLine> lines, const PathLimits& limits) {
   path.start = std::max(path.lengths.front(), -limits.reach);
   path.end = std::min(path.lengths.back(), limits.reach);
   for (std::size_t i = 0; i + 1 < path.points.size(); ++i)
-    cutAtObstacles(lines, path.points[i], path.points[i + 1], path.lengths[i], limits, path);
+    cutAtObstacles(obstacles, path.points[i], path.points[i + 1], path.lengths[i], limits, path);
   return path;
 }
 

@@ -19,6 +19,8 @@ struct WallPath {
   /// At a length from start to end: the point, and the unit direction forwards.
   [[nodiscard]] Vector2 pointAt(double length) const;
   [[nodiscard]] Vector2 directionAt(double length) const;
+  /// From a point to the path, m.
+  [[nodiscard]] double distanceTo(const Vector2& point) const;
 
  private:
   [[nodiscard]] std::size_t legAt(double length) const;
@@ -32,7 +34,8 @@ struct PathLimits {
   double bend = 10.0 * degree;  ///< rad between two pieces; a sharper one ends it
 };
 
-/// `lines` are those around the origin, which lies on a wall along the x axis.
-WallPath pathAlong(std::span<const WallLine> lines, const PathLimits& limits);
+/// The origin lies on one of `walls`, along the x axis; `obstacles` may stand in the way.
+WallPath pathAlong(std::span<const WallLine> walls, std::span<const WallLine> obstacles,
+                   const PathLimits& limits);
 
 }  // namespace bumper::doctor

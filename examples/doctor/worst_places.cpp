@@ -70,19 +70,17 @@ List impactList(const Subject& subject, const MethodResult& method, const std::s
   return list;
 }
 
-List tunnellingList(const Subject& subject, const Examination& examination,
-                    const MethodResult& method, const std::string& name) {
+List tunnellingList(const Subject& subject, const MethodResult& method, const std::string& name) {
   List list;
   for (const Approach approach : {Approach::front, Approach::side}) {
     const Tunnelling& each = approach == Approach::front ? method.front : method.side;
     if (!each.speed || *each.speed > 4.0 * subject.speed) continue;
-    const Place& place = examination.places[each.place];
     list.push_back({.kind = "through",
                     .words = name + ": through the wall from " + fixed(*each.speed, 1) + " m/s" +
                              (approach == Approach::front ? " head-on" : " sideways"),
-                    .position = place.plane.origin,
-                    .drive = tunnellingDrive(subject, place, approach, *each.speed, 0),
-                    .out = place.plane.axes.col(1)});
+                    .position = each.drive.plane.origin,
+                    .drive = each.drive,
+                    .out = each.drive.plane.axes.col(1)});
   }
   return list;
 }
@@ -148,17 +146,16 @@ List featureList(const Examination& examination) {
 
 std::vector<WorstPlace> worstPlaces(const Subject& subject, const Examination& examination,
                                     std::size_t most) {
-  const std::vector<List> lists{
-      impactList(subject, examination.bumper, "Bumper"),
-      catches(subject, examination, examination.bumper, "Bumper"),
-      catches(subject, examination, examination.joints, "contact joints"),
-      impactList(subject, examination.joints, "contact joints"),
-      tunnellingList(subject, examination, examination.bumper, "Bumper"),
-      tunnellingList(subject, examination, examination.joints, "contact joints"),
-      droppedList(subject, examination),
-      normalList(examination),
-      meshList(examination),
-      featureList(examination)};
+  const std::vector<List> lists{impactList(subject, examination.bumper, "Bumper"),
+                                catches(subject, examination, examination.bumper, "Bumper"),
+                                catches(subject, examination, examination.joints, "contact joints"),
+                                impactList(subject, examination.joints, "contact joints"),
+                                tunnellingList(subject, examination.bumper, "Bumper"),
+                                tunnellingList(subject, examination.joints, "contact joints"),
+                                droppedList(subject, examination),
+                                normalList(examination),
+                                meshList(examination),
+                                featureList(examination)};
   const double apart = 0.5 * subject.length();
   List worst;
   std::vector<std::size_t> next(lists.size(), 0);
