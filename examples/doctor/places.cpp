@@ -80,8 +80,8 @@ class Chooser {
     const std::array<double, 9> heights = this->heights();
     std::vector<double> inBand;
     std::ranges::copy_if(heights, std::back_inserter(inBand), [&](double offset) {
-      const double height = offset + subject_.vehicle.massCentreHeight;
-      return height >= band_.bottom && height <= band_.top;
+      const double above = offset + subject_.vehicle.massCentreHeight;
+      return above >= band_.bottom && above <= band_.top;
     });
     const bool isCut = std::ranges::any_of(
         inBand, [&](double offset) { return cutWall(wall, plane, offset, line); });
