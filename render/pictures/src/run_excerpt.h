@@ -3,10 +3,12 @@
 #include <cstddef>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/render/recording.h"
 #include "bumper/render/snapshot.h"
 
-namespace bumper::drawing {
+namespace BUMPER_INTERNAL bumper {
+namespace drawing {
 
 /// A vehicle at an instant that is drawn.
 struct DrawnPose {
@@ -55,4 +57,5 @@ const DrawnImpact* hardest(const RunExcerpt& run);
 /// The largest speed on the drawn paths, m/s.
 double topSpeed(const RunExcerpt& run);
 
-}  // namespace bumper::drawing
+}  // namespace drawing
+}  // namespace bumper
