@@ -23,7 +23,7 @@ namespace bumper::doctor {
 /// A lowest tunnelling speed, and where.
 struct Tunnelling {
   std::optional<double> speed;  ///< m/s; empty: never
-  TestDrive drive;
+  TestDrive drive{};
 };
 
 /// What the test drives by one method led to.

@@ -14,7 +14,7 @@ inline constexpr double gainedRatio = 1.001;
 
 struct ImpactTrial {
   std::size_t place = 0;  ///< index
-  TestDrive drive;
+  TestDrive drive{};
   double energy = 0.0;  ///< the most after the impact, as a ratio to that before
   bool isThrough = false;
 

@@ -17,8 +17,8 @@ namespace bumper::doctor {
 
 /// A test drive: a start and what acts on the vehicle then.
 struct TestDrive {
-  DrivingPlane plane;
-  PlanarMotion start;      ///< in the plane
+  DrivingPlane plane{};
+  PlanarMotion start{};    ///< in the plane
   double sideForce = 0.0;  ///< N, at right angles to the velocity, positive to its left
   double attack = 0.0;     ///< rad, against the wall: contact joints get e and μ at this angle
   std::size_t steps = 0;

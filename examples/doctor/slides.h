@@ -18,8 +18,8 @@ inline constexpr double caughtWithin = 0.1;
 
 struct Slide {
   std::size_t place = 0;  ///< index
-  TestDrive drive;
-  SpeedLoss loss;
+  TestDrive drive{};
+  SpeedLoss loss{};
   [[nodiscard]] bool isCaught(double speed) const { return loss.loss > caughtShare * speed; }
 };
 

@@ -21,7 +21,7 @@ SpeedRange searchedSpeeds(const Subject& subject);
 /// A speed at which a vehicle goes through a wall, and a drive that shows it.
 struct TunnellingDrive {
   double speed = 0.0;  ///< m/s
-  TestDrive drive;
+  TestDrive drive{};
 };
 
 /// The speed from which a vehicle goes through a wall at right angles to it, to 3 %, by bisection;
