@@ -1,7 +1,9 @@
 #include "trace_measures.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace bumper::doctor {
 
@@ -53,16 +55,23 @@ double mostEnergy(const DriveTrace& trace) {
 }
 
 bool wentThrough(const DriveTrace& trace, const Place& place) {
-  for (std::size_t i = 0; i + 1 < trace.states.size(); ++i) {
-    const Vector2 from = place.plane.local(trace.states[i].position).head<2>();
-    const Vector2 to = place.plane.local(trace.states[i + 1].position).head<2>();
-    const Vector2 way = to - from;
-    for (const WallLine& line : place.lines) {
-      const Vector2 along = line.to - line.from;
-      const double denominator = cross(way, along);
+  std::vector<Vector2> way;
+  Eigen::AlignedBox2d box;
+  for (const DriveState& state : trace.states) {
+    way.emplace_back(place.plane.local(state.position).head<2>());
+    box.extend(way.back());
+  }
+  for (const WallLine& line : place.lines) {
+    Eigen::AlignedBox2d ends(line.from);
+    ends.extend(line.to);
+    if (!box.intersects(ends)) continue;
+    const Vector2 along = line.to - line.from;
+    for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+      const Vector2 step = way[i + 1] - way[i];
+      const double denominator = cross(step, along);
       if (denominator == 0.0) continue;
-      const double onWay = cross(line.from - from, along) / denominator;
-      const double onLine = cross(line.from - from, way) / denominator;
+      const double onWay = cross(line.from - way[i], along) / denominator;
+      const double onLine = cross(line.from - way[i], step) / denominator;
       if (onWay >= 0.0 && onWay <= 1.0 && onLine >= 0.0 && onLine <= 1.0) return true;
     }
   }
