@@ -35,8 +35,8 @@ void printMesh(const Report& report) {
   const Examination& examination = report.examination;
   std::printf("\nThe mesh\n");
   state("triangles", report.subject.scene.triangles.size());
-  state("… without area", examination.load.droppedDegenerate);
-  state("… there twice", examination.load.droppedDuplicate);
+  state("- without area", examination.load.droppedDegenerate);
+  state("- there twice", examination.load.droppedDuplicate);
   state("edges beside a flipped triangle", examination.edges.flipped.count,
         at(examination.edges.flipped));
   state("edges of one triangle alone", examination.edges.open.count, at(examination.edges.open));
@@ -55,8 +55,8 @@ void printWalls(const Report& report) {
   std::printf("\nWhat Bumper takes for walls\n");
   state("walls", walls.walls,
         "from " + fixed(walls.lowestFoot, 1) + " to " + fixed(walls.highestTop, 1) + " m");
-  state("… kept without ground nearby", walls.withoutGround);
-  state("… kept in doubt", walls.inDoubt);
+  state("- kept without ground nearby", walls.withoutGround);
+  state("- kept in doubt", walls.inDoubt);
   state("dropped: too flat", walls.droppedFlat - walls.droppedOnGuess);
   if (walls.droppedDegenerate > 0) state("dropped: no area", walls.droppedDegenerate);
   for (const DroppedGroup& group : report.examination.dropped) {
