@@ -52,6 +52,11 @@ std::optional<ImpactEvent> asSeenBy(std::string_view vehicle, const ImpactEvent&
   return other;
 }
 
+double hardness(const ImpactEvent& event) {
+  const auto other = asSeenBy(event.otherVehicle, event);
+  return other && other->deltaV > event.deltaV ? other->deltaV : event.deltaV;
+}
+
 std::optional<RecordedPose> poseAt(const RecordedVehicle& vehicle, double time) {
   const auto& poses = vehicle.poses;
   if (poses.empty() || !(time >= poses.front().time && time <= poses.back().time)) return {};

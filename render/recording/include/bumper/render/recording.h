@@ -49,6 +49,9 @@ class RecordedImpact {
 /// the heading are NaN, not known; nothing for a vehicle that takes no part.
 std::optional<ImpactEvent> asSeenBy(std::string_view vehicle, const ImpactEvent& event);
 
+/// How hard an impact is: the larger Δv of those that take part and are known, m/s.
+double hardness(const ImpactEvent& event);
+
 struct RecordedVehicle {
   std::string name;
   VehicleParameters parameters;
