@@ -346,7 +346,9 @@ class Overlay {
       next.name = run_.names[v];
       next.start = start;
       const bool last = v + 1 == run_.names.size();
-      const Eigen::Vector3f paint = paintOf(v);
+      const auto own = options_.vehicleMeshes.find(next.name);
+      const bool isOwn = own != options_.vehicleMeshes.end() && !own->second->meshes.empty();
+      const Eigen::Vector3f paint = isOwn ? own->second->meshes.front().colour : paintOf(v);
       next.paint = Colour(paint.x(), paint.y(), paint.z(), 1.0F);
       next.end = start + small_ * (capitalHeight + nameGap + textWidth(next.name));
       const std::string rest = "and " + std::to_string(run_.names.size() - v) + " more";
