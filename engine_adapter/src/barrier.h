@@ -9,21 +9,22 @@
 #include "barrier_mesh.h"
 #include "bumper/engine_adapter/barrier.h"
 #include "primitive_wall.h"
+#include "world_frame.h"
 
 namespace bumper {
 
 /// The barrier of a BarrierId: triangles, or a plane or cylinder of ODE's.
 class Barrier {
  public:
-  /// A scene, as a new geom.
-  Barrier(BarrierId id, const Scene& scene, const BarrierOptions& options, std::string name,
-          const ResponseSettings& usual);
-  /// A geom of the application's: trimesh, box, plane or cylinder.
-  Barrier(BarrierId id, dGeomID geom, const BarrierOptions& options, std::string name,
-          const ResponseSettings& usual);
-  /// A geom of the application's whose shape is given as a scene.
-  Barrier(BarrierId id, dGeomID geom, const Scene& shape, const BarrierOptions& options,
+  /// A scene, as a new geom. Scenes are in the frame's own axes, metres.
+  Barrier(BarrierId id, const Scene& scene, const WorldFrame& frame, const BarrierOptions& options,
           std::string name, const ResponseSettings& usual);
+  /// A geom of the application's: trimesh, box, plane or cylinder.
+  Barrier(BarrierId id, dGeomID geom, const WorldFrame& frame, const BarrierOptions& options,
+          std::string name, const ResponseSettings& usual);
+  /// A geom of the application's whose shape is given as a scene.
+  Barrier(BarrierId id, dGeomID geom, const Scene& shape, const WorldFrame& frame,
+          const BarrierOptions& options, std::string name, const ResponseSettings& usual);
   ~Barrier() = default;
   Barrier(const Barrier&) = delete;
   Barrier& operator=(const Barrier&) = delete;

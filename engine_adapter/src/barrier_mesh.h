@@ -14,6 +14,7 @@
 #include "lent_geom.h"
 #include "ode_handles.h"
 #include "wall_table.h"
+#include "world_frame.h"
 
 namespace bumper {
 
@@ -21,11 +22,14 @@ namespace bumper {
 class BarrierMesh {
  public:
   /// A new geom for the scene's walls in options.space.
-  BarrierMesh(const Scene& scene, const BarrierOptions& options, std::string name);
-  /// The walls of the application's geom, of any class, as a scene in world coordinates.
-  BarrierMesh(const Scene& scene, dGeomID geom, const BarrierOptions& options, std::string name);
+  BarrierMesh(const Scene& scene, const WorldFrame& frame, const BarrierOptions& options,
+              std::string name);
+  /// The walls of the application's geom, of any class, as a scene; `solid` as isSolid().
+  BarrierMesh(const Scene& scene, dGeomID geom, bool solid, const BarrierOptions& options,
+              std::string name);
   /// The walls of the application's trimesh.
-  BarrierMesh(dGeomID trimesh, const BarrierOptions& options, std::string name);
+  BarrierMesh(dGeomID trimesh, const WorldFrame& frame, const BarrierOptions& options,
+              std::string name);
   ~BarrierMesh() = default;
   BarrierMesh(const BarrierMesh&) = delete;
   BarrierMesh& operator=(const BarrierMesh&) = delete;
@@ -89,6 +93,7 @@ class BarrierMesh {
   void keepWalls(const Scene& scene, const Walls& selected);
   void makePlan(std::vector<Wall> walls);
   void buildMesh();
+  void lendGeom(const WorldFrame& frame, dSpaceID space);
   [[nodiscard]] std::size_t memory() const;
 
   std::string name_;
@@ -108,6 +113,9 @@ class BarrierMesh {
   // Each is destroyed after those that are built on it.
   OwnTriMeshData data_;
   OwnGeom queryGeom_;  // in no space; carries our callbacks
+  // The same walls in the world's axes and unit, if these are not Bumper's: for lent_.
+  std::vector<double> worldVertices_;
+  OwnTriMeshData worldData_;
   dGeomID geom_ = nullptr;
   std::optional<LentGeom> lent_;
   bool solid_ = false;

@@ -191,9 +191,10 @@ bool isWithFoot(const OwnedPair& pair, const VehiclePose& pose, const Contact& c
          envelope.inBand(pose, contact.place, foot->foot, foot->top);
 }
 
-bool isOurs(const OwnedPair& pair, const VehiclePose& pose, const dContactGeom& geom) {
-  const Contact contact{.place = toVector(geom.pos),
-                        .normal = toVector(geom.normal),
+bool isOurs(const OwnedPair& pair, const VehiclePose& pose, const WorldFrame& frame,
+            const dContactGeom& geom) {
+  const Contact contact{.place = frame.vector(toVector(geom.pos)),
+                        .normal = frame.direction(toVector(geom.normal)),
                         .triangle = pair.barrierFirst ? geom.side1 : geom.side2};
   // ODE gives no triangle index where two trimeshes meet along their edges.
   if (contact.triangle < 0 && dGeomGetClass(pair.barrier->geom()) == dTriMeshClass) {
@@ -215,10 +216,13 @@ bool Responder::claims(dGeomID a, dGeomID b) const {
 
 int Responder::keepUnclaimed(dGeomID a, dGeomID b, dContact* contacts, int count) const {
   ContactPairs pairs(*implementation_, a, b);
+  const WorldFrame& frame = implementation_->worldFrame;
   const auto isBumpers = [&](const dContact& contact) {
     const OwnedPair& pair = pairs.pairOf(contact.geom);
-    if (pairs.vehicles()) return pairs.vehicles()->own(toVector(contact.geom.normal));
-    return pair && isOurs(pair, pairs.pose(), contact.geom);
+    if (pairs.vehicles()) {
+      return pairs.vehicles()->own(frame.direction(toVector(contact.geom.normal)));
+    }
+    return pair && isOurs(pair, pairs.pose(), frame, contact.geom);
   };
   return static_cast<int>(std::remove_if(contacts, contacts + count, isBumpers) - contacts);
 }

@@ -66,14 +66,14 @@ double leanAsSeen(double wallLean, double tilt) {
 FreeSpace::FreeSpace(const VehicleBodies& bodies, const Envelope& envelope, double minUprightness)
     : envelope_(envelope),
       minUprightness_(minUprightness),
-      rotation_(dBodyGetRotation(bodies.chassis())),
+      rotation_(bodies.numbers().front().rotation),
       quaternion_(dBodyGetQuaternion(bodies.chassis())),
-      turning_(dBodyGetAngularVel(bodies.chassis())) {
-  for (dBodyID body : bodies.all()) {
-    bodies_.push_back({.position = dBodyGetPosition(body),
-                       .velocity = dBodyGetLinearVel(body),
-                       .force = dBodyGetForce(body),
-                       .torque = dBodyGetTorque(body)});
+      turning_(bodies.numbers().front().turning) {
+  for (const BodyNumbers& body : bodies.numbers()) {
+    bodies_.push_back({.position = body.position,
+                       .velocity = body.velocity,
+                       .force = body.force,
+                       .torque = body.torque});
   }
 }
 

@@ -32,14 +32,15 @@ struct Vehicle {
         mover(itsMover),
         minUprightness(std::cos(tiltLimit)),
         envelope(itsParameters, band),
-        freeSpace(bodies, envelope, minUprightness) {
+        freeSpace(bodies, envelope, minUprightness),
+        guards(bodies.frame()) {
     traveller.vehicle = this;
-    const dBodyID chassis = bodies.chassis();
-    traveller.position = dBodyGetPosition(chassis);
-    traveller.rotation = dBodyGetRotation(chassis);
-    traveller.velocity = dBodyGetLinearVel(chassis);
-    traveller.turning = dBodyGetAngularVel(chassis);
-    traveller.force = dBodyGetForce(chassis);
+    const BodyNumbers& chassis = bodies.numbers().front();
+    traveller.position = chassis.position;
+    traveller.rotation = chassis.rotation;
+    traveller.velocity = chassis.velocity;
+    traveller.turning = chassis.turning;
+    traveller.force = chassis.force;
     traveller.forceAllowed = Traffic::accelerationAllowed * itsParameters.mass;
     const VehiclePose pose = bodies.readPose();
     const dReal* at = traveller.position;
@@ -96,7 +97,7 @@ struct Vehicle {
   int islandPlace = -1;     ///< its place among the island's members
 
   /// False also where the rotation is not finite.
-  [[nodiscard]] bool isUpright() const { return uprightness(bodies.chassis()) >= minUprightness; }
+  [[nodiscard]] bool isUpright() const { return bodies.uprightness() >= minUprightness; }
 
   /// By its yaw rate no point of the outline moves faster about the mass centre, m/s.
   [[nodiscard]] double turningSpeed() const {

@@ -17,9 +17,11 @@
 #include "bumper/response/island_step.h"
 #include "ode_handles.h"
 #include "registered_vehicle.h"
+#include "space_barriers.h"
 #include "traffic.h"
 #include "warnings.h"
 #include "world_clock.h"
+#include "world_frame.h"
 
 namespace bumper {
 
@@ -44,13 +46,16 @@ struct Meeting {
   bool isIn = false;  ///< it belongs to an island
 };
 
-struct Responder::Implementation {
+struct BUMPER_HIDDEN Responder::Implementation {
   dWorldID world = nullptr;
   ResponderOptions options;
+  WorldFrame worldFrame;
+  bool anyCopied = false;  // a vehicle's numbers are not ODE's own
 
   // In the order of their ids. These are given once, so that none ever means another thing.
   std::vector<std::unique_ptr<Barrier>> barriers;
   std::vector<std::unique_ptr<Vehicle>> vehicles;
+  std::vector<std::unique_ptr<BarrierSpace>> spaces;
   int nextBarrier = 0;
   int nextVehicle = 0;
   std::unordered_map<dGeomID, const Barrier*> barrierOfGeom;
@@ -84,6 +89,9 @@ struct Responder::Implementation {
   std::vector<const Meeting*> islandMeetings;
   std::vector<StepOutcome> islandOutcomes;
 
+  /// Throws Error if a barrier's settings are invalid.
+  void requireValid(const BarrierOptions& given) const;
+
   /// Invalidates the known surroundings of vehicles.
   void forgetSurroundings();
 
@@ -94,6 +102,8 @@ struct Responder::Implementation {
            (options.vehiclesCollide || !pairOptions.empty());
   }
 
+  /// Of the bodies' numbers.
+  void refreshCopies() const;
   /// The step of those vehicles that are not certainly away from all walls and other vehicles.
   void stepAll(std::span<Vehicle* const> some, double h);
   /// Corrects deliveries that the world's last step did not carry out as expected.

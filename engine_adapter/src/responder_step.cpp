@@ -34,10 +34,10 @@ PlanarMotion motionOf(const Vehicle& vehicle, Method method, double h) {
   return motion;
 }
 
-double gravityOf(dWorldID world) {
+double gravityOf(dWorldID world, const WorldFrame& frame) {
   dVector3 gravity;
   dWorldGetGravity(world, gravity);
-  return toVector(gravity).norm();
+  return frame.vector(toVector(gravity)).norm();
 }
 
 // Where the vehicle's forward axis points now in the yaw plane that it had before, unit.
@@ -63,6 +63,7 @@ std::span<const ImpactEvent> Responder::step(double h) {
   // and had none before.
   const bool hasPairs = self.hasPairs();
   self.activeCount = 0;
+  if (self.anyCopied) self.refreshCopies();
   for (const std::unique_ptr<Vehicle>& vehicle : self.vehicles) {
     vehicle->isFar = vehicle->mover != Mover::world || vehicle->freeSpace.holds(h);
     vehicle->isAlone = !hasPairs || Traffic::isApart(vehicle->traveller, self.time, h);
@@ -83,10 +84,19 @@ std::span<const ImpactEvent> Responder::step(double h) {
   }
   if (hasPairs) self.findCompany(h);
   if (self.activeCount > 0) self.stepAll(self.activeNow(), h);
+  if (!self.worldFrame.isUsual()) {
+    for (ImpactEvent& event : self.events) event = self.worldFrame.eventInWorld(event);
+  }
   self.time += h;
   self.lastStep = h;
   sortByTime(self.events);
   return self.events;
+}
+
+void Responder::Implementation::refreshCopies() const {
+  for (const std::unique_ptr<Vehicle>& vehicle : vehicles) {
+    if (vehicle->bodies.areCopied()) vehicle->bodies.refresh();
+  }
 }
 
 void Responder::Implementation::stepAll(std::span<Vehicle* const> some, double h) {
@@ -138,7 +148,7 @@ void Responder::Implementation::read(Vehicle& vehicle, double h) {
   const bool remembersWalls =
       delivering || mayHaveEnded(memory.contacts, time) || !memory.passable.empty();
   if (isUpright && options.skipping && !remembersWalls && !vehicle.isFar) {
-    vehicle.isFar = vehicle.freeSpace.find(barriers, state, gravityOf(world), h,
+    vehicle.isFar = vehicle.freeSpace.find(barriers, state, gravityOf(world, worldFrame), h,
                                            stepsUntilEnd(memory.contacts, time, h));
   }
   if (vehicle.isFar && !vehicle.hasCompany) return;

@@ -4,10 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/render/recording.h"
 #include "bumper/render/snapshot.h"
 
-namespace bumper::drawing {
+namespace BUMPER_INTERNAL bumper {
+namespace drawing {
 
 /// A vehicle at an instant that is drawn.
 struct DrawnPose {
@@ -63,4 +65,5 @@ std::string deltaVText(const ImpactEvent& event);
 /// The largest speed on the drawn paths, m/s.
 double topSpeed(const RunExcerpt& run);
 
-}  // namespace bumper::drawing
+}  // namespace drawing
+}  // namespace bumper

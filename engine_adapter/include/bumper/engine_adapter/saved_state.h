@@ -3,13 +3,15 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/engine_adapter/barrier.h"
 #include "bumper/engine_adapter/vehicle.h"
 #include "bumper/response/force_pulse.h"
 
 /// What a responder remembers from step to step, as plain data. Times are Responder::time(), s;
-/// world frame unless said otherwise.
-namespace bumper {
+/// world frame unless said otherwise, as zUp() of WorldAxes has it: in metres with z up, whatever
+/// the world's own axes and unit.
+namespace BUMPER_API bumper {
 
 /// A wall that a vehicle passes through: it broke and the outline has not left it yet, or its long
 /// force pulse still runs: those that isOneWall() says, of all barriers while a pulse runs, of one

@@ -4,9 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/response/planar_motion.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// A direction of attack on a wall, by its parts across and along it, ≥ 0 and in any unit. The
 /// paper's curves need the angle's cosine only, which costs much less than the angle.

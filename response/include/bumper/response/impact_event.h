@@ -3,9 +3,10 @@
 #include <Eigen/Core>
 #include <string_view>
 
+#include "bumper/base/api.h"
 #include "bumper/response/impact.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 enum class EventPhase {
   impact,  ///< one impulse with an approach speed above the settings' rest speed, or above

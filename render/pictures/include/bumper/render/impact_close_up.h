@@ -2,12 +2,13 @@
 
 #include <cstddef>
 
+#include "bumper/base/api.h"
 #include "bumper/render/image.h"
 #include "bumper/render/offscreen_backend.h"
 #include "bumper/render/recording.h"
 #include "bumper/scenes/scene.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 struct CloseUpOptions {
   int width = 1280;  ///< pixels, 640 to 8192 and what the driver allows

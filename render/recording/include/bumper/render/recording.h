@@ -9,11 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/render/run_description.h"
 #include "bumper/response/impact_event.h"
 #include "bumper/response/vehicle_parameters.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// Where a vehicle is and how it moves at one instant. World frame: right-handed, z up, SI units.
 struct RecordedPose {

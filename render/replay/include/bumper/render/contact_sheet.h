@@ -4,12 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/render/image.h"
 #include "bumper/render/recording.h"
 #include "bumper/render/vehicle_meshes.h"
 #include "bumper/scenes/scene.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 struct ContactSheetOptions {
   int pictureWidth = 420;   ///< pixels, 160 to 2000
