@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cerrno>
@@ -154,6 +155,7 @@ class Host {
     dBodySetLinearVel(body_, -side * (15.0 + 10.0 * share(numbers_)), share(numbers_), 0.0);
     dBodySetAngularVel(body_, 0.0, 0.0, 2.0 * share(numbers_));
     pulse_.drop();
+    expected_.reset();
     for (int i = 0; i < longestRound; ++i) {
       if (stepBoth()) break;
     }
@@ -185,6 +187,8 @@ class Host {
   bool stepBoth() {
     const State own = state();
     const State other = peer_.exchange(own);
+    if (expected_) worst_ = std::max(worst_, (Vector2(own[3], own[4]) - *expected_).norm());
+    expected_.reset();
     const bool isFirst = number_ == 1;
     const PairState first = pairState(isFirst ? own : other);
     const PairState second = pairState(isFirst ? other : own);
@@ -205,10 +209,6 @@ class Host {
                   .angular = cross(mine.impact.arm, mine.response.impulse.linear)},
                  mine.time, step);
       expected_ = mine.response.after.velocity;
-    } else if (expected_ && pulse_.isEmpty()) {
-      // What ODE made of the force is what the law wants.
-      worst_ = std::max(worst_, (Vector2(own[3], own[4]) - *expected_).norm());
-      expected_.reset();
     }
     const PlanarForce force = pulse_.take(step);
     dBodyAddForce(body_, force.force.x(), force.force.y(), 0.0);
@@ -252,7 +252,7 @@ class Host {
   ForcePulse pulse_;
   std::uint64_t impacts_ = 0;
   Digest digest_;
-  std::optional<Vector2> expected_;
+  std::optional<Vector2> expected_;  ///< the velocity after the last step's impact, by the law
   double worst_ = 0.0;
 };
 

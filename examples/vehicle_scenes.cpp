@@ -108,7 +108,7 @@ VehicleScene gateway() {
   addGround({-40, -20}, {30, 20}, scene.scene);
   addWall({0.0, 16.0}, {0.0, 3.0}, "left wall", scene.scene);
   addWall({0.0, -3.0}, {0.0, -16.0}, "right wall", scene.scene);
-  scene.drivers = {{.name = "first", .place = {-10.2, -0.3}, .speed = 6.0, .brakesAt = never},
+  scene.drivers = {{.name = "first", .place = {-12.6, -0.3}, .speed = 6.0, .brakesAt = never},
                    {.name = "second", .place = {-36.0, 0.4}, .speed = 9.0, .brakesAt = 3.4}};
   scene.gate = SlidingGate{.place = {0.4, 8.0}, .closedAt = 0.0};
   return scene;
