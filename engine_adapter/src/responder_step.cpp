@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "expectation.h"
 #include "ode_vectors.h"
@@ -42,6 +43,14 @@ double gravityOf(dWorldID world, const WorldFrame& frame) {
 // Where the vehicle's forward axis points now in the yaw plane that it had before, unit.
 Vector2 aheadSince(const Eigen::Matrix3d& before, const Eigen::Matrix3d& now) {
   return (before.transpose() * now.col(0)).head<2>().normalized();
+}
+
+// They come vehicle by vehicle, those of pairs last. What was in order stays so.
+void sortByTime(std::vector<ImpactEvent>& events) {
+  const auto isBefore = [](double time, const ImpactEvent& event) { return time < event.time; };
+  for (auto next = events.begin(); next != events.end(); ++next) {
+    std::rotate(std::upper_bound(events.begin(), next, next->time, isBefore), next, next + 1);
+  }
 }
 
 }  // namespace
@@ -82,6 +91,7 @@ std::span<const ImpactEvent> Responder::step(double h) {
   }
   self.time += h;
   self.lastStep = h;
+  sortByTime(self.events);
   return self.events;
 }
 
