@@ -186,6 +186,13 @@ TEST(FailingMemory, AddingAGeomIsAllOrNothing) {
       [](Situation& situation) { situation.responder.addBarrier(situation.box.geom); });
 }
 
+TEST(FailingMemory, AddingASpaceIsAllOrNothing) {
+  BarrierOptions options{.name = "a name that is long enough to be on the heap"};
+  options.walls.scenery = "a pattern that is long enough to be on the heap .*";
+  expectAllOrNothing(
+      [&](Situation& situation) { situation.responder.addBarriers(situation.ode.space, options); });
+}
+
 TEST(FailingMemory, AddingAVehicleIsAllOrNothing) {
   expectAllOrNothing([](Situation& situation) {
     const dBodyID linked[] = {situation.linked.body};
