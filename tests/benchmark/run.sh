@@ -6,7 +6,7 @@
 #   --quick          fewer cases, about a minute
 #   --accuracy       run time against error alone
 #   --performance    query and step cost alone
-#   --peers          installs the optional peers too (Bullet, OpenSceneGraph, valgrind)
+#   --peers          installs the optional peers too (Bullet, Box2D, OpenSceneGraph, valgrind)
 #   --dry-run        shows the packages and stops
 set -euo pipefail
 source "$(dirname "$0")/../../cmake/prepare.sh"
