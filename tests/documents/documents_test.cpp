@@ -76,20 +76,24 @@ std::vector<Quotation> quotationsIn(const std::string& text) {
   return found;
 }
 
-/// The first line of the quotation that does not follow in the file, where "..." leaves lines out.
+/// The first part of the quotation, up to a "...", that does not follow in the file; indents do not
+/// count.
 std::string strangerIn(const Quotation& quotation, const std::vector<std::string>& file) {
-  std::size_t at = 0;
-  bool mayJump = true;
+  std::vector<std::vector<std::string>> parts(1);
   for (const std::string& line : quotation.lines) {
     if (line == "...") {
-      mayJump = true;
-      continue;
+      parts.emplace_back();
+    } else {
+      parts.back().push_back(withoutIndent(line));
     }
-    const std::string wanted = withoutIndent(line);
-    while (mayJump && at < file.size() && withoutIndent(file[at]) != wanted) ++at;
-    if (at == file.size() || withoutIndent(file[at]) != wanted) return line;
-    ++at;
-    mayJump = false;
+  }
+  std::vector<std::string> rest;
+  std::ranges::transform(file, std::back_inserter(rest), withoutIndent);
+  auto from = rest.begin();
+  for (const std::vector<std::string>& part : parts) {
+    const auto at = std::search(from, rest.end(), part.begin(), part.end());
+    if (at == rest.end()) return part.front();
+    from = at + static_cast<std::ptrdiff_t>(part.size());
   }
   return "";
 }

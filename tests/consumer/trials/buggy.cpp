@@ -24,12 +24,12 @@ static void nearCallback(void*, dGeomID a, dGeomID b) {
   const bool isFixedB = b == ground || b == ramp || b == wall;
   if (isFixedA == isFixedB) return;
 #ifdef BUMPER
-  if (responder->claims(a, b)) return;
+  if (responder->claims(a, b)) return;  // the whole pair is Bumper's
 #endif
   dContact contacts[10];
   int count = dCollide(a, b, 10, &contacts[0].geom, sizeof(dContact));
 #ifdef BUMPER
-  count = responder->keepUnclaimed(a, b, contacts, count);
+  count = responder->keepUnclaimed(a, b, contacts, count);  // the ground stays
 #endif
   for (int i = 0; i < count; ++i) {
     contacts[i].surface.mode =
@@ -97,11 +97,11 @@ int main(int, char** argv) {
     }
   }
 #ifdef BUMPER
-  bumper::Responder bumper(world);
-  responder = &bumper;
-  bumper.addBarrier(wall);
-  bumper.addVehicle(chassis, bumper::parametersFromGeoms(chassis, wheels, 0.24),
-                    {.linkedBodies = wheels});
+  bumper::Responder impacts(world);  // borrows the world
+  responder = &impacts;
+  impacts.addBarrier(wall);  // or a track's mesh, road and walls in one
+  impacts.addVehicle(chassis, bumper::parametersFromGeoms(chassis, wheels, 0.24),
+                     {.linkedBodies = wheels});
 #endif
 
   for (int step = 0; step < std::atoi(argv[2]); ++step) {
@@ -116,7 +116,7 @@ int main(int, char** argv) {
     dJointSetHinge2Param(axles[0], dParamFudgeFactor, 0.1);
     dSpaceCollide(space, nullptr, nearCallback);
 #ifdef BUMPER
-    bumper.step(0.05);
+    impacts.step(0.05);  // returns events: what was hit, where, how hard
 #endif
     dWorldQuickStep(world, 0.05);
     dJointGroupEmpty(contactJoints);
