@@ -19,7 +19,7 @@ done
 
 mkdir -p "$root/build"
 install_packages build
-configure_and_build --target test_rail course break_through wall_in_c bumper-drive bumper-replay bumper-plot \
+configure_and_build --target test_rail course break_through hinge2_car wall_in_c bumper-drive bumper-replay bumper-plot \
   bumper-read-scene
 cd "$root"
 
@@ -44,6 +44,11 @@ say "A lap of the course"
 
 say "Through a fence"
 "$build/bin/break_through" out/break_through
+
+say "A car on hinge2 wheels"
+mkdir -p out/hinge2_car
+"$build/bin/hinge2_car" out/hinge2_car/run.jsonl
+"$build/bin/bumper-replay" sheet out/hinge2_car/run.jsonl out/hinge2_car/sheet.png
 
 say "A wall, from C"
 "$build/bin/wall_in_c"
