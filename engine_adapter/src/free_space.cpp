@@ -154,6 +154,7 @@ bool FreeSpace::fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
   double known = 0.0;
   double lean = bandHeight * leanAsSeen(known, tilt);
   for (const std::unique_ptr<Barrier>& barrier : barriers) {
+    if (barrier->frame().moves()) continue;
     if (barrier->lean() != known) {
       known = barrier->lean();
       lean = bandHeight * leanAsSeen(known, tilt);

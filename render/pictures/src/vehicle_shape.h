@@ -32,7 +32,11 @@ std::vector<ShapeTriangle> vehicleShape(const VehicleParameters& vehicle, const 
 std::vector<ShapeTriangle> vehicleShape(const RecordedVehicle& vehicle, std::size_t index,
                                         const VehicleMeshes& meshes);
 
-/// The paint of the vehicle with an index in the recording.
+/// As many can be told apart, by the colour-blind too.
+inline constexpr std::size_t paintCount = 8;
+
+/// The paint of the vehicle with an index in the recording, the same in every picture. The first
+/// ones differ; then they come again.
 Eigen::Vector3f paintOf(std::size_t vehicle);
 
 }  // namespace drawing

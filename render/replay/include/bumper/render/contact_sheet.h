@@ -23,10 +23,10 @@ struct ContactSheetOptions {
 };
 
 /// One picture of the whole run: on top the run from above, below it a row for each impact,
-/// in the order of time, with its number, time, Δv, speeds and yaw rates, and pictures of the
-/// vehicle at instants around it, from where least of it is hidden. An impact within 0.3 s of a
-/// harder one of the same vehicle is named in that one's row instead. Earlier instants are ghosts.
-/// Where the run has not begun or is over, a place is empty.
+/// in the order of time, with its number, time, Δv, speeds and yaw rates, of both if two
+/// vehicles hit each other, and pictures of them at instants around it, from where least is hidden.
+/// An impact within 0.3 s of a harder one of the same vehicle is named in that one's row instead.
+/// Earlier instants are ghosts. Where the run has not begun or is over, a place is empty.
 ///
 /// Throws Error on an invalid scene, an option outside its range, a recording without poses, a
 /// sheet larger than Image::maxSide, or if the driver fails.
