@@ -99,12 +99,12 @@ TEST(BadInput, Barriers) {
   BoxCar car(ode.world);
   responder.addVehicle(car.body, car.parameters, {.name = "truck"});
   expectError([&] { responder.addBarrier(car.geom); }, "has a body of vehicle 'truck'");
-  const dGeomID sphere = dCreateSphere(nullptr, 1.0);
-  expectError([&] { responder.addBarrier(sphere); }, "given as a scene");
-  expectError([&] { responder.addBarrier(sphere); }, "is a sphere");
-  dGeomDestroy(sphere);
+  const dGeomID point = dCreateSphere(nullptr, 0.0);
+  expectError([&] { responder.addBarrier(point); }, "is a sphere without a radius");
+  dGeomDestroy(point);
   const dGeomID field = dCreateHeightfield(nullptr, dGeomHeightfieldDataCreate(), 0);
   expectError([&] { responder.addBarrier(field); }, "is a heightfield");
+  expectError([&] { responder.addBarrier(field); }, "give its faces as a scene");
   dGeomHeightfieldDataDestroy(dGeomHeightfieldGetHeightfieldData(field));
   dGeomDestroy(field);
   const dGeomID ground = dCreatePlane(nullptr, 0.0, 0.0, 1.0, 0.0);
