@@ -147,10 +147,9 @@ std::optional<std::string> warningOf(dWorldID world, const WorldFrame& frame) {
   // Not a stream, which would swallow that memory has run out.
   char text[300];
   std::snprintf(text, sizeof text,
-                "the world's gravity is (%g, %g, %g) %s, not along -up: up is (%g, %g, %g), see "
+                "the world's gravity is (%g, %g, %g), not along -up: up is (%g, %g, %g), see "
                 "ResponderOptions::axes and VehicleOptions::axes",
-                gravity[0], gravity[1], gravity[2],
-                frame.metre() == 1.0 ? "m/s²" : "length units/s²", up.x(), up.y(), up.z());
+                gravity[0], gravity[1], gravity[2], up.x(), up.y(), up.z());
   return text;
 }
 

@@ -99,6 +99,9 @@ TEST(BadInput, Barriers) {
   BoxCar car(ode.world);
   responder.addVehicle(car.body, car.parameters, {.name = "truck"});
   expectError([&] { responder.addBarrier(car.geom); }, "has a body of vehicle 'truck'");
+  const dGeomID ray = dCreateRay(nullptr, 1.0);
+  expectError([&] { responder.addBarrier(ray); }, "is a ray");
+  dGeomDestroy(ray);
   const dGeomID point = dCreateSphere(nullptr, 0.0);
   expectError([&] { responder.addBarrier(point); }, "is a sphere without a radius");
   dGeomDestroy(point);

@@ -36,7 +36,6 @@ class TurnedWorld {
       : axes_(axes), responder(ode_.world, with(options, axes)) {}
   ~TurnedWorld() {
     for (dBodyID body : bodies_) dBodyDestroy(body);
-    for (dBodyID body : carriers_) dBodyDestroy(body);
   }
   TurnedWorld(const TurnedWorld&) = delete;
   TurnedWorld& operator=(const TurnedWorld&) = delete;
@@ -88,23 +87,6 @@ class TurnedWorld {
     const dGeomID geom = dCreateCapsule(ode_.space, axes_.metre * radius, axes_.metre * length);
     point(geom, place, axis);
     return geom;
-  }
-  /// Lets a geom move with a kinematic body. The velocity is of the place, about the up axis.
-  void carry(dGeomID geom, const Eigen::Vector3d& velocity, double turning) {
-    dBodyID body = dBodyCreate(ode_.world);
-    dBodySetKinematic(body);
-    const dReal* p = dGeomGetPosition(geom);
-    dBodySetPosition(body, p[0], p[1], p[2]);
-    const Eigen::Vector3d v = there(velocity);
-    dBodySetLinearVel(body, v.x(), v.y(), v.z());
-    const Eigen::Vector3d w = axes_.world * Eigen::Vector3d(0.0, 0.0, turning);
-    dBodySetAngularVel(body, w.x(), w.y(), w.z());
-    dQuaternion q;
-    dGeomGetQuaternion(geom, q);
-    dBodySetQuaternion(body, q);
-    dBodySetFiniteRotationMode(body, 1);
-    dGeomSetBody(geom, body);
-    carriers_.push_back(body);
   }
   dGeomID addMesh(const Scene& scene) {
     meshes_.push_back(std::make_unique<OdeMesh>(ode_.space, there(scene)));
@@ -241,7 +223,6 @@ class TurnedWorld {
   OdeWorld ode_;
   std::vector<std::unique_ptr<OdeMesh>> meshes_;
   std::vector<dBodyID> bodies_;
-  std::vector<dBodyID> carriers_;
   std::vector<VehicleId> cars_;
 
  public:

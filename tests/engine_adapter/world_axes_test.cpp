@@ -65,14 +65,6 @@ const std::vector<Course>& courses() {
            w.responder.addBarrier(w.addPlane({-side, 0.0, 0.0}, -8.0));
          }
        }},
-      {"gates",
-       [](TurnedWorld& w) {
-         for (const double side : {-1.0, 1.0}) {
-           const dGeomID gate = w.addBox({0.0, 6.0 * side, 0.6}, 0.0, {16.0, 1.0, 1.2});
-           w.carry(gate, {0.0, -2.0 * side, 0.0}, 0.1);
-           w.responder.addBarrier(gate);
-         }
-       }},
       {"posts", [](TurnedWorld& w) {
          // So far apart that no car is wedged between two, where rounding decides.
          for (int i = 0; i < 8; ++i) {
