@@ -86,6 +86,19 @@ int bumper_update_scene(bumper_responder responder, bumper_barrier barrier,
   });
 }
 
+int bumper_move_barrier(bumper_responder responder, bumper_barrier barrier,
+                        const bumper_velocity* velocity) {
+  return changing("bumper_move_barrier", responder, [&](Session& session) {
+    const BarrierId id = idOf(session, "barrier", barrier);
+    const bumper_velocity& given = required("velocity", velocity);
+    const Name name{"velocity"};
+    BarrierVelocity known;
+    read({"linear", &name}, given.linear, known.linear);
+    read({"angular", &name}, given.angular, known.angular);
+    session.responder.updateBarrier(id, known);
+  });
+}
+
 int bumper_remove_barrier(bumper_responder responder, bumper_barrier barrier) {
   return changing("bumper_remove_barrier", responder, [&](Session& session) {
     session.responder.removeBarrier(idOf(session, "barrier", barrier));

@@ -164,6 +164,7 @@ void fields(Is<bumper_event> auto& c, auto& cpp, const auto& visit) {
   visit("energy_ratio", c.energy_ratio, cpp.energyRatio);
   visit("energy_lost", c.energy_lost, cpp.energyLost);
   visit("duration", c.duration, cpp.duration);
+  visit("velocity_before", c.velocity_before, cpp.velocityBefore);
 }
 
 /// WallSelection with its ground's reach beside the question whether it is limited.
@@ -221,7 +222,8 @@ struct Layout<bumper_pair_options>
 template <>
 struct Layout<bumper_motion> : LayoutOf<Motion, BUMPER_FIRST_SIZE(bumper_motion, yaw_rate)> {};
 template <>
-struct Layout<bumper_event> : LayoutOf<ImpactEvent, BUMPER_FIRST_SIZE(bumper_event, duration)> {};
+struct Layout<bumper_event>
+    : LayoutOf<ImpactEvent, BUMPER_FIRST_SIZE(bumper_event, velocity_before)> {};
 
 #undef BUMPER_FIRST_SIZE
 

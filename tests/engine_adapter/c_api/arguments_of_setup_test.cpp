@@ -212,6 +212,28 @@ TEST_F(CArguments, OfBarriersAreRefused) {
   refuseBarrier("bumper_update_barrier", [&](bumper_barrier barrier) {
     return bumper_update_barrier(world_.responder, barrier);
   });
+  const char* move = "bumper_move_barrier";
+  bumper_velocity velocity{};
+  refuseResponder(move, [&](bumper_responder responder) {
+    return bumper_move_barrier(responder, world_.barrier, &velocity);
+  });
+  refuseBarrier(move, [&](bumper_barrier barrier) {
+    return bumper_move_barrier(world_.responder, barrier, &velocity);
+  });
+  expectRefused(move, "velocity", bumper_move_barrier(world_.responder, world_.barrier, nullptr));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string index = '[' + std::to_string(i) + ']';
+    refuseNumber(move, "velocity.linear" + index, {}, [&](double value) {
+      bumper_velocity changed{};
+      changed.linear[i] = value;
+      return bumper_move_barrier(world_.responder, world_.barrier, &changed);
+    });
+    refuseNumber(move, "velocity.angular" + index, {}, [&](double value) {
+      bumper_velocity changed{};
+      changed.angular[i] = value;
+      return bumper_move_barrier(world_.responder, world_.barrier, &changed);
+    });
+  }
   refuseResponder("bumper_remove_barrier", [&](bumper_responder responder) {
     return bumper_remove_barrier(responder, world_.barrier);
   });

@@ -206,6 +206,26 @@ TEST(CEvents, AreVoidOnceTheirNamesMayBe) {
   EXPECT_EQ(bumper_get_event(world.responder, 0, &event), BUMPER_INVALID_ARGUMENT);
 }
 
+// A wall that comes at a car at rest pushes it ahead of itself.
+TEST(CBarriers, Move) {
+  CWorld world;
+  world.car.move({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+  world.other.place({-100.0, 0.0, 0.55}, Eigen::Matrix3d::Identity());
+  world.other.move({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+  dGeomID wall = nullptr;
+  ASSERT_EQ(bumper_get_geom(world.responder, world.barrier, &wall), BUMPER_OK);
+  constexpr double h = 0.005;
+  const bumper_velocity velocity{.linear = {-5.0, 0.0, 0.0}, .angular = {}};
+  for (int i = 1; i <= 300; ++i) {
+    ASSERT_EQ(bumper_move_barrier(world.responder, world.barrier, &velocity), BUMPER_OK)
+        << bumper_last_error();
+    world.step(h);
+    const dReal* place = dGeomGetPosition(wall);
+    dGeomSetPosition(wall, place[0] - 5.0 * h, place[1], place[2]);
+  }
+  EXPECT_LT(world.car.velocity().x(), -4.9);
+}
+
 TEST(CSpaces, AreKeptInStep) {
   CWorld world;
   const bumper_responder responder = world.responder;

@@ -63,6 +63,7 @@ void tell(Told& told, const bumper_event& e) {
   told.add(e.other_arm, 2);
   told.add(e.other_velocity_before, 3);
   told.add(e.other_velocity_after, 3);
+  told.add(e.velocity_before, 3);
   told.add(e.velocity_after, 3);
   for (const double number : {e.time,
                               e.other_yaw_rate_before,
@@ -103,6 +104,7 @@ void tell(Told& told, const ImpactEvent& e) {
   told.add(e.otherArm, 2);
   told.add(e.otherVelocityBefore, 3);
   told.add(e.otherVelocityAfter, 3);
+  told.add(e.velocityBefore, 3);
   told.add(e.velocityAfter, 3);
   for (const double number : {e.time,
                               e.otherYawRateBefore,

@@ -236,6 +236,17 @@ int bumper_update_barrier(bumper_responder responder, bumper_barrier barrier);
 int bumper_update_scene(bumper_responder responder, bumper_barrier barrier,
                         const bumper_scene* scene);
 
+/* How a barrier moves, world: the place of its geom, m/s, and the rotation of it all, rad/s. */
+typedef struct bumper_velocity {
+  double linear[3];
+  double angular[3];
+} bumper_velocity;
+
+/* After the application has moved it, with the velocity that holds for the coming step. (Without
+ * one, a barrier that is updated before each step has that from one place to the next.) */
+int bumper_move_barrier(bumper_responder responder, bumper_barrier barrier,
+                        const bumper_velocity* velocity);
+
 int bumper_remove_barrier(bumper_responder responder, bumper_barrier barrier);
 
 /* The geom in a barrier's contacts; null once its space was destroyed. */
@@ -446,8 +457,9 @@ typedef struct bumper_event {
   double velocity_after[3]; /* world, m/s */
   double energy_asked;      /* NaN under the restitution law */
   double energy_ratio;
-  double energy_lost; /* J */
-  double duration;    /* of a contact that has ended, s */
+  double energy_lost;        /* J */
+  double duration;           /* of a contact that has ended, s */
+  double velocity_before[3]; /* world, m/s */
 } bumper_event;
 
 int bumper_init_event(bumper_event* event, size_t size);
