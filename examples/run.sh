@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs the main job: the paper's test rail and course, a
-# fence that breaks, vehicles that hit each other, then a drive on a real race track. Recordings, pictures, films and tables go to
-# out/.
+# fence that breaks, vehicles that hit each other, then a drive on a real race track. Recordings,
+# pictures, films and tables go to out/.
 #   --no-download   leaves out the real track unless it is there already
 #   --dry-run       shows the packages and stops
 set -euo pipefail
