@@ -40,9 +40,12 @@ check_linker_flag(CXX LINKER:--version-script=${bumper_exported_symbols} BUMPER_
 # The same flags for every target of ours; none of them leaks to applications.
 function(bumper_target_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  set_target_properties(
-    ${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
-                         VISIBILITY_INLINES_HIDDEN ON)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  # Clang hides a function that is defined where its namespace is opened anew, whatever its header says:
+  # there the linker's list alone bounds what a shared library shows.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+  endif()
   target_compile_options(${target} PRIVATE ${bumper_flags}
                                            $<$<BOOL:${BUMPER_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()
@@ -102,6 +105,15 @@ function(bumper_program name)
   set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
   bumper_target_options(${name})
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
+endfunction()
+
+# The same for sources in C, which see what any user's strict C99 sees.
+function(bumper_c_options target)
+  set_target_properties(${target} PROPERTIES C_STANDARD 99 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF
+                                             POSITION_INDEPENDENT_CODE ON UNITY_BUILD OFF)
+  target_compile_options(
+    ${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -ffp-contract=off
+                      $<$<BOOL:${BUMPER_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()
 
 # bumper_install_program(<name> <component> [LIBEXEC] [EXPORT <set>])

@@ -19,8 +19,8 @@ done
 
 mkdir -p "$root/build"
 install_packages build
-configure_and_build --target test_rail course break_through vehicles two_hosts bumper-drive \
-  bumper-replay bumper-plot bumper-read-scene
+configure_and_build --target test_rail course break_through vehicles two_hosts wall_in_c \
+  bumper-drive bumper-replay bumper-plot bumper-read-scene
 cd "$root"
 
 # show FOLDER [OPTION of bumper-plot]...: everything that the tools make of a recording.
@@ -60,6 +60,9 @@ printf "  %s\n" out/vehicles/chain/replay.mp4
 
 say "Two hosts"
 "$build/bin/two_hosts" --impacts 10000
+
+say "A wall, from C"
+"$build/bin/wall_in_c"
 
 say "A drive on a real track"
 if [ "$download" = 1 ]; then "$root/examples/fetch_tracks.sh" road/aalborg || true; fi

@@ -9,6 +9,7 @@
 
 #include "bumper/response/error.h"
 #include "geom_class.h"
+#include "geom_shape.h"
 #include "ode_vectors.h"
 
 namespace bumper {
@@ -122,7 +123,7 @@ Barrier::Barrier(BarrierId id, const Scene& scene, const WorldFrame& frame,
     : id_(id), name_(std::move(name)), hasScene_(true) {
   keepOptions(options);
   mesh_.emplace(scene, frame, options, name_);
-  keepGeom(mesh_->geom());
+  keepGeom(mesh_->geom(), frame);
   keepSettings(usual);
 }
 
@@ -151,16 +152,16 @@ Barrier::Barrier(BarrierId id, dGeomID geom, const WorldFrame& frame, const Barr
     default:
       refuse(geom);
   }
-  keepGeom(geom);
+  keepGeom(geom, frame);
   keepSettings(usual);
 }
 
-Barrier::Barrier(BarrierId id, dGeomID geom, const Scene& shape, const WorldFrame& /*frame*/,
+Barrier::Barrier(BarrierId id, dGeomID geom, const Scene& shape, const WorldFrame& frame,
                  const BarrierOptions& options, std::string name, const ResponseSettings& usual)
     : id_(id), name_(std::move(name)), hasScene_(true) {
   keepOptions(options);
   mesh_.emplace(shape, geom, dGeomGetClass(geom) == dBoxClass, options, name_);
-  keepGeom(geom);
+  keepGeom(geom, frame);
   keepSettings(usual);
 }
 
@@ -171,11 +172,16 @@ void Barrier::keepOptions(const BarrierOptions& options) {
   options_.walls.scenery = scenery_;
 }
 
-void Barrier::keepGeom(dGeomID geom) {
+void Barrier::keepGeom(dGeomID geom, const WorldFrame& frame) {
   geom_ = geom;
   geomClass_ = dGeomGetClass(geom);
   if (geomClass_ == dTriMeshClass) geomData_ = dGeomTriMeshGetTriMeshDataID(geom);
+  frame_.emplace(geom, frame);
+  up_ = frame.directionInWorld(Eigen::Vector3d::UnitZ());
+  shape_ = shapeOf(geom, up_);
 }
+
+bool Barrier::hasSameShape() const { return isStill(geom_) && shapeOf(geom_, up_) == shape_; }
 
 bool Barrier::isStill(dGeomID existing) const {
   return existing == geom_ && dGeomGetClass(existing) == geomClass_ &&

@@ -77,7 +77,7 @@ ImpactEvent Responder::Implementation::eventWith(const Vehicle& vehicle, const C
   } else {
     const Barrier& barrier = *find(barriers, with.barrier.value);
     event.barrier = barrier.name();
-    event.triangle = barrier.triangleOf(barrier.wallAt(wall, contact));
+    event.triangle = barrier.triangleOf(barrier.wallAt(wall, barrier.toFrame(contact)));
     event.material = barrier.materialOf(wall);
   }
   event.contact = contact;
@@ -138,7 +138,10 @@ void Responder::Implementation::reportPairImpact(const Meeting& meeting, const P
   const double least =
       goesOn ? impactInContact * settings.restSpeed : impactSpeed(contacts, with, settings);
   const bool hard = response.approachSpeed > least;
-  const Eigen::Vector3d contact = plane.placeOf(impact.point);
+  // Between the heights of both, whichever is the first in the plane.
+  const double higher =
+      plane.normal().dot(meeting.second->reading.state.massCentre - state.massCentre);
+  const Eigen::Vector3d contact = plane.placeOf(impact.point) + 0.5 * higher * plane.normal();
   const Eigen::Vector3d normal = plane.toWorld(impact.normal);
   const bool begins = addToContact(contacts,
                                    {.with = with,

@@ -150,8 +150,15 @@ bool FreeSpace::fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
   const double speedNow = state.velocity.head<2>().norm();
   double ahead = std::clamp(timeAhead * speedNow, leastAhead, mostAhead);
   const double wanted = std::min(fewestSteps * h * speedNow, 0.5 * ahead);
+  // Most barriers are upright, or lean alike.
+  double known = 0.0;
+  double lean = bandHeight * leanAsSeen(known, tilt);
   for (const std::unique_ptr<Barrier>& barrier : barriers) {
-    const double lean = bandHeight * leanAsSeen(barrier->lean(), tilt);
+    if (barrier->frame().moves()) continue;
+    if (barrier->lean() != known) {
+      known = barrier->lean();
+      lean = bandHeight * leanAsSeen(known, tilt);
+    }
     const PlanStrip strip{.origin = state.massCentre.head<2>(),
                           .direction = along,
                           .start = -(rear + lean + leastBehind),

@@ -108,6 +108,13 @@ void GuardContacts::attach(const Constraint& constraint, dJointGroupID group, dB
     contact.geom.pos[k] = place[k];
     contact.geom.normal[k] = normal[k];
   }
+  // The axes of friction, level and upright: what ODE takes where z is up.
+  if (!frame_.isUsual()) {
+    contact.surface.mode |= dContactFDir1;
+    const Eigen::Vector3d level =
+        frame_.directionInWorld(Eigen::Vector3d::UnitZ().cross(load.normal).normalized());
+    for (int k = 0; k < 3; ++k) contact.fdir1[k] = level[k];
+  }
   const dJointID joint = dJointCreateContact(dBodyGetWorld(chassis), group, &contact);
   dJointAttach(joint, chassis, constraint.other);
   feedback_[count_] = {};

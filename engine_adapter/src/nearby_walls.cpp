@@ -52,18 +52,46 @@ void NearbyWalls::list(const Envelope& vehicle,
   surfaces_.clear();
   owners_.clear();
   for (const std::unique_ptr<Barrier>& barrier : barriers) {
-    if (!barrier->mayComeWithin(centre_, radius)) continue;
-    if (barrier->mesh() == nullptr) {
-      faces_.push_back({.barrier = barrier.get(),
-                        .centre = centre_,
-                        .radius = std::numeric_limits<double>::infinity(),
-                        .surface = surfaceNumber(*barrier, 0)});
-    } else {
-      listFaces(*barrier, query_.list(*barrier->mesh(), vehicle, state, margins_));
+    if (barrier->frame().moves() || !barrier->mayComeWithin(centre_, radius)) continue;
+    listWalls(*barrier, vehicle, state, margins_);
+  }
+  standingFaces_ = faces_.size();
+  standingSurfaces_ = surfaces_.size();
+  isKnown_ = true;
+}
+
+// Of those that move the walls within reach, as they are now.
+void NearbyWalls::listMoving(const Envelope& vehicle, std::span<Barrier* const> moving,
+                             const VehicleState& state, double reach) {
+  const double needed = reach + vehicle.bandHeight();
+  const WallQuery::Margins margins{
+      .front = needed, .rear = needed, .side = needed, .height = allAround};
+  for (const Barrier* barrier : moving) {
+    const VehicleState seen = barrier->frame().toFrame(state);
+    if (!barrier->mayComeWithin(seen.massCentre, vehicle.radius() + 2.0 * needed + allAround)) {
+      continue;
+    }
+    const std::size_t first = surfaces_.size();
+    listWalls(*barrier, vehicle, seen, margins);
+    const PlanarMotion motion = barrier->frame().inYawPlane(state);
+    for (std::size_t i = first; i < surfaces_.size(); ++i) {
+      surfaces_[i].moves = true;
+      surfaces_[i].motion = motion;
     }
   }
-  listedSurfaces_ = surfaces_.size();
-  isKnown_ = true;
+}
+
+// The faces of a barrier's walls around a vehicle, which its frame sees so.
+void NearbyWalls::listWalls(const Barrier& barrier, const Envelope& vehicle,
+                            const VehicleState& state, const WallQuery::Margins& margins) {
+  if (barrier.mesh() != nullptr) {
+    listFaces(barrier, query_.list(*barrier.mesh(), vehicle, state, margins));
+    return;
+  }
+  faces_.push_back({.barrier = &barrier,
+                    .centre = state.massCentre,
+                    .radius = std::numeric_limits<double>::infinity(),
+                    .surface = surfaceNumber(barrier, 0)});
 }
 
 // The local number of a barrier wall's surface.
@@ -136,16 +164,25 @@ std::optional<Segment> NearbyWalls::pieceOf(const Near& near, const Envelope& ve
   return piece;
 }
 
-void NearbyWalls::collect(const Envelope& vehicle,
-                          const std::vector<std::unique_ptr<Barrier>>& barriers,
+void NearbyWalls::collect(const Envelope& vehicle, const BarrierList& barriers,
                           const VehicleState& state, const Question& question) {
-  if (!covers(vehicle, state, question.reach)) list(vehicle, barriers, state, question.reach);
-  surfaces_.resize(listedSurfaces_);
-  owners_.resize(listedSurfaces_);
+  if (!covers(vehicle, state, question.reach)) list(vehicle, barriers.all, state, question.reach);
+  faces_.resize(standingFaces_);
+  surfaces_.resize(standingSurfaces_);
+  owners_.resize(standingSurfaces_);
+  if (!barriers.moving.empty()) listMoving(vehicle, barriers.moving, state, question.reach);
+  listedSurfaces_ = surfaces_.size();
   segments_.clear();
+  VehicleState fromMoving;
+  const auto seenFrom = [&](const Near& near) -> const VehicleState& {
+    const BarrierFrame& frame = near.barrier->frame();
+    if (!frame.moves()) return state;
+    fromMoving = frame.toFrame(state);
+    return fromMoving;
+  };
   if (!question.evenIfNoneIsThere && !wasThere_) {
     const auto mayBeThere = [&](const Near& each) {
-      return mayMeet(each, vehicle, state, question.around);
+      return mayMeet(each, vehicle, seenFrom(each), question.around);
     };
     if (std::none_of(faces_.begin(), faces_.end(), mayBeThere)) return;
   }
@@ -156,8 +193,9 @@ void NearbyWalls::collect(const Envelope& vehicle,
   const PlanRectangle within = vehicle.outline().enlarged(question.reach);
   wasThere_ = false;
   for (std::size_t i = 0; i < faces_.size(); ++i) {
-    if (!mayMeet(faces_[i], vehicle, state, within)) continue;
-    const std::optional<Segment> piece = pieceOf(faces_[i], vehicle, state, question.reach);
+    const VehicleState& seen = seenFrom(faces_[i]);
+    if (!mayMeet(faces_[i], vehicle, seen, within)) continue;
+    const std::optional<Segment> piece = pieceOf(faces_[i], vehicle, seen, question.reach);
     if (!piece || !meets(within, *piece)) continue;
     wasThere_ = wasThere_ || meets(question.around, *piece);
     segments_.push_back(*piece);

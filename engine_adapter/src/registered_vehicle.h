@@ -92,9 +92,11 @@ struct Vehicle {
   bool isAlone = true;      ///< certainly away from all other vehicles
   bool isActive = false;    ///< … not both
   bool hasCompany = false;  ///< another vehicle may meet it
-  bool isHit = false;       ///< by another vehicle
-  int island = -1;          ///< its number; −1: none
-  int islandPlace = -1;     ///< its place among the island's members
+  /// No barrier that moves and may meet it is faster, m/s; negative: none may.
+  double barrierSpeed = -1.0;
+  bool isHit = false;    ///< by another vehicle
+  int island = -1;       ///< its number; −1: none
+  int islandPlace = -1;  ///< its place among the island's members
 
   /// False also where the rotation is not finite.
   [[nodiscard]] bool isUpright() const { return bodies.uprightness() >= minUprightness; }

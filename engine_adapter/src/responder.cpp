@@ -104,7 +104,9 @@ auto withScene(const Responder::Implementation& responder, const Scene& scene, c
 // After barriers have changed.
 void lookAround(Responder::Implementation& responder) noexcept {
   responder.longestPenetrationTime = 0.0;
+  responder.movingBarriers.clear();
   for (const std::unique_ptr<Barrier>& barrier : responder.barriers) {
+    if (barrier->frame().moves()) responder.movingBarriers.push_back(barrier.get());
     responder.longestPenetrationTime =
         std::max(responder.longestPenetrationTime, barrier->longestPenetrationTime());
   }
@@ -121,6 +123,7 @@ BarrierId add(Responder::Implementation& responder, const BarrierOptions& option
   auto barrier = makeBarrier(responder, id, options, std::move(name), source...);
   std::optional<std::string> warning = warningOf(*barrier);
   makeRoom(responder.barriers, 1);
+  responder.movingBarriers.reserve(responder.barriers.size() + 1);
   responder.warnings.makeRoom(1);
   responder.barrierOfGeom.insert_or_assign(barrier->geom(), barrier.get());
 
@@ -144,6 +147,8 @@ template <typename... Source>
 void update(Responder::Implementation& responder, const Barrier& old, const BarrierOptions& options,
             const Source&... source) {
   std::unique_ptr<Barrier> fresh = makeBarrier(responder, old.id(), options, old.name(), source...);
+  fresh->frame().takeOver(old.frame());
+  fresh->frame().follow(fresh->geom(), responder.time, responder.lastStep);
   std::optional<std::string> warning = warningOf(*fresh);
   responder.warnings.makeRoom(1);
   responder.barrierOfGeom.insert_or_assign(fresh->geom(), fresh.get());
@@ -168,17 +173,35 @@ void update(Responder::Implementation& responder, const Barrier& old, const Barr
   lookAround(responder);
 }
 
-void requireStanding(dGeomID geom, const char* call) {
-  if (dGeomGetBody(geom) != nullptr) {
-    throw Error(std::string(call) + ": the geom has a body: a barrier must stand still");
-  }
+void requireExisting(const Barrier& barrier) {
+  const LentGeom* lent = barrier.mesh() != nullptr ? barrier.mesh()->lentGeom() : nullptr;
+  if (lent == nullptr || lent->exists()) return;
+  throw Error("updateBarrier: the geom of barrier '" + barrier.name() +
+              "' was destroyed: remove the barrier and add it anew");
+}
+
+// A vehicle's geom is none of a barrier.
+void requireNoVehicle(const Responder::Implementation& responder, dGeomID geom, const char* call) {
+  const auto owner = responder.vehicleOfBody.find(dGeomGetBody(geom));
+  if (owner == responder.vehicleOfBody.end()) return;
+  throw Error(std::string(call) + ": the geom has a body of vehicle '" + owner->second->name + "'");
+}
+
+// The barrier's geom was moved, with or without a velocity, and nothing else: whether it was.
+bool follow(Responder::Implementation& responder, Barrier& barrier) {
+  requireNoVehicle(responder, barrier.geom(), "updateBarrier");
+  if (!barrier.hasSameShape()) return false;
+  const bool moved = barrier.frame().moves();
+  barrier.frame().follow(barrier.geom(), responder.time, responder.lastStep);
+  if (barrier.frame().moves() != moved) lookAround(responder);
+  return barrier.frame().moves();
 }
 
 // Whether a geom of the application's can become a barrier.
 void requireUsable(const Responder::Implementation& responder, dGeomID geom) {
   if (geom == nullptr) throw Error("addBarrier: the geom is null");
   if (dGeomIsSpace(geom) != 0) throw Error("addBarrier: the geom is a space");
-  requireStanding(geom, "addBarrier");
+  requireNoVehicle(responder, geom, "addBarrier");
   const auto known = responder.barrierOfGeom.find(geom);
   if (known != responder.barrierOfGeom.end() && known->second->isStill(geom)) {
     throw Error("addBarrier: the geom is a barrier already");
@@ -233,13 +256,41 @@ BarrierId Responder::addBarrier(dGeomID geom, const BarrierOptions& options) {
 }
 
 void Responder::updateBarrier(BarrierId barrier) {
-  const Barrier& old = registered(implementation_->barriers, barrier.value, "barrier");
+  Implementation& self = *implementation_;
+  Barrier& old = registered(self.barriers, barrier.value, "barrier");
+  requireExisting(old);
+  if (follow(self, old)) return;
   if (old.hasScene()) {
     throw Error("updateBarrier: the walls of barrier '" + old.name() +
-                "' came from a scene: give the scene as it is now");
+                "' came from a scene, and its geom was not moved: give the scene as it is now");
   }
-  requireStanding(old.geom(), "updateBarrier");
-  update(*implementation_, old, old.options(), old.geom());
+  update(self, old, old.options(), old.geom());
+}
+
+void Responder::updateBarrier(BarrierId barrier, const BarrierVelocity& velocity) {
+  Implementation& self = *implementation_;
+  Barrier& moved = registered(self.barriers, barrier.value, "barrier");
+  requireExisting(moved);
+  if (!velocity.linear.allFinite() || !velocity.angular.allFinite()) {
+    throw Error("updateBarrier: the velocity of barrier '" + moved.name() + "' is not finite");
+  }
+  if (moved.frame().body() != nullptr || dGeomGetBody(moved.geom()) != nullptr) {
+    throw Error("updateBarrier: barrier '" + moved.name() +
+                "' has a body: set the velocity of that");
+  }
+  if (moved.primitive() != nullptr && !moved.primitive()->isPost()) {
+    throw Error("updateBarrier: barrier '" + moved.name() + "' is a plane, and planes do not move");
+  }
+  if (!moved.hasSameShape()) {
+    if (moved.hasScene()) {
+      throw Error("updateBarrier: the geom of barrier '" + moved.name() + "' has another shape");
+    }
+    update(self, moved, moved.options(), moved.geom());
+  }
+  Barrier& now = *find(self.barriers, barrier.value);
+  now.frame().follow(now.geom(), self.time, self.lastStep);
+  now.frame().setVelocity(velocity, self.time);
+  lookAround(self);
 }
 
 void Responder::updateBarrier(BarrierId barrier, const Scene& scene) {
@@ -250,16 +301,13 @@ void Responder::updateBarrier(BarrierId barrier, const Scene& scene) {
   }
   const LentGeom* lent = old.mesh()->lentGeom();
   if (lent == nullptr) {
-    requireStanding(old.geom(), "updateBarrier");
+    requireNoVehicle(*implementation_, old.geom(), "updateBarrier");
     withScene(*implementation_, scene, [&](const Scene& own) {
       update(*implementation_, old, old.options(), old.geom(), own);
     });
     return;
   }
-  if (!lent->exists()) {
-    throw Error("updateBarrier: the geom of barrier '" + old.name() +
-                "' was destroyed: remove the barrier and add it anew");
-  }
+  requireExisting(old);
   BarrierOptions options = old.options();
   // Its original space may be destroyed by now, and the geom in another.
   if (options.space != nullptr) options.space = dGeomGetSpace(lent->address());
@@ -444,6 +492,10 @@ SavedState Responder::save() const {
     const std::span<const GuardLoad> loads = vehicle->guards.loads();
     saved.vehicles.back().guards.assign(loads.begin(), loads.end());
   }
+  for (const Barrier* barrier : implementation_->movingBarriers) {
+    saved.barriers.push_back(barrier->frame().motion());
+    saved.barriers.back().barrier = barrier->id();
+  }
   return saved;
 }
 
@@ -490,6 +542,14 @@ void Responder::restore(const SavedState& state) {
       }
     }
   }
+  for (const BarrierMotion& motion : state.barriers) {
+    const Barrier& barrier = registered(self.barriers, motion.barrier.value, "barrier");
+    if (motion.position.allFinite() && motion.axes.allFinite() && motion.velocity.allFinite() &&
+        motion.turning.allFinite()) {
+      continue;
+    }
+    throw Error("restore: the motion of barrier '" + barrier.name() + "' is not finite");
+  }
   // Copies first, which may fail; a step takes them as it takes those of a new vehicle.
   std::vector<std::array<VehicleMemory, 2>> copies(state.vehicles.size());
   for (std::size_t i = 0; i < copies.size(); ++i) {
@@ -509,7 +569,10 @@ void Responder::restore(const SavedState& state) {
   if (self.clock) self.clock->stop();
   dJointGroupEmpty(self.guardJoints.get());
   self.hasGuards = false;
-  self.forgetSurroundings();
+  for (const BarrierMotion& motion : state.barriers) {
+    find(self.barriers, motion.barrier.value)->frame().restore(motion);
+  }
+  lookAround(self);
   self.time = state.time;
 }
 

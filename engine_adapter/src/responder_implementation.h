@@ -56,6 +56,7 @@ struct BUMPER_HIDDEN Responder::Implementation {
   std::vector<std::unique_ptr<Barrier>> barriers;
   std::vector<std::unique_ptr<Vehicle>> vehicles;
   std::vector<std::unique_ptr<BarrierSpace>> spaces;
+  std::vector<Barrier*> movingBarriers;  // a place for every barrier
   int nextBarrier = 0;
   int nextVehicle = 0;
   std::unordered_map<dGeomID, const Barrier*> barrierOfGeom;
@@ -109,12 +110,17 @@ struct BUMPER_HIDDEN Responder::Implementation {
   /// Corrects deliveries that the world's last step did not carry out as expected.
   void checkLastStep(std::span<Vehicle* const> some);
   void read(Vehicle& vehicle, double h);
+  void readMovingBarriers();
+  /// Whether a barrier that moves may meet it in the step, or is near enough to be guarded.
+  [[nodiscard]] bool mayMeetMovingBarrier(Vehicle& vehicle, double h) const;
   void collectWalls(Vehicle& vehicle, double h);
   void solve(Vehicle& vehicle, double h);
   void applyOutcome(Vehicle& vehicle, const StepOutcome& outcome, double h);
   /// Within this distance, m, a wall's contacts are guarded in a step.
   [[nodiscard]] static double guardedDistance(const Vehicle& vehicle, double h);
   void addGuards(Vehicle& vehicle, std::span<const SpeculativeContact> contacts, double h);
+  static void pushBack(const Barrier& barrier, const Vehicle& vehicle, const StepImpact& each,
+                       double h);
 
   /// Null: they do not respond to each other.
   [[nodiscard]] const ResponseSettings* settingsOfPair(const Vehicle& a, const Vehicle& b) const;

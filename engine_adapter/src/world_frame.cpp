@@ -11,7 +11,7 @@ namespace bumper {
 namespace {
 
 // How far from unit and perpendicular a direction may be: written by hand, or single precision.
-constexpr double tolerance = 1e-6;
+constexpr double axisTolerance = 1e-6;
 
 std::string textOf(const Eigen::Vector3d& v) {
   std::ostringstream text;
@@ -20,7 +20,7 @@ std::string textOf(const Eigen::Vector3d& v) {
 }
 
 void requireUnit(const Eigen::Vector3d& v, const char* what) {
-  if (v.allFinite() && std::abs(v.norm() - 1.0) <= tolerance) return;
+  if (v.allFinite() && std::abs(v.norm() - 1.0) <= axisTolerance) return;
   throw Error(std::string(what) + " is " + textOf(v) + ": it must be a unit vector");
 }
 
@@ -73,7 +73,7 @@ void validate(const WorldAxes& axes) {
 void validate(const ChassisAxes& axes) {
   requireUnit(axes.forward, "ChassisAxes::forward");
   requireUnit(axes.up, "ChassisAxes::up");
-  if (std::abs(axes.forward.dot(axes.up)) <= tolerance) return;
+  if (std::abs(axes.forward.dot(axes.up)) <= axisTolerance) return;
   throw Error("ChassisAxes: forward " + textOf(axes.forward) + " and up " + textOf(axes.up) +
               " must be perpendicular");
 }

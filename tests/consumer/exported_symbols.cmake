@@ -1,7 +1,7 @@
 # Included: sees that the shared LIBRARIES show what the headers in the folders HEADERS declare, and
 # nothing else. These are the installed ones and, of the source tree's own, those that say BUMPER_INTERNAL.
 
-# What is declared: names before an opening bracket or a class's bases. A class of which the name
+# What is declared: names before an opening bracket, a class's bases or a value. A class of which the name
 # alone is told is not among them.
 set(declared "")
 foreach(folder IN LISTS HEADERS)
@@ -11,7 +11,7 @@ foreach(folder IN LISTS HEADERS)
     if(text MATCHES "namespace BUMPER_(API|INTERNAL) bumper")
       string(REGEX REPLACE "//[^\n]*" "" text "${text}")
       string(REGEX REPLACE "[][;]" "" text "${text}")
-      string(REGEX MATCHALL "[A-Za-z_][A-Za-z_0-9]*( final)?[ \n]*[({:]" found "${text}")
+      string(REGEX MATCHALL "[A-Za-z_][A-Za-z_0-9]*( final)?[ \n]*[({:=]" found "${text}")
       list(TRANSFORM found REPLACE "[^A-Za-z_0-9].*" "")
       list(APPEND declared ${found})
     endif()

@@ -10,6 +10,15 @@ file(REMOVE_RECURSE ${WORK})
 
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
 file(RENAME ${WORK}/prefix ${WORK}/moved)
+
+# What a header does not mark, a shared library hides.
+file(GLOB_RECURSE headers ${WORK}/moved/include/*.h)
+foreach(header IN LISTS headers)
+  file(STRINGS ${header} unmarked REGEX "^namespace bumper")
+  if(unmarked)
+    message(FATAL_ERROR "${header} opens its namespace without BUMPER_API")
+  endif()
+endforeach()
 run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCE} -B ${WORK}/build -D CMAKE_PREFIX_PATH=${WORK}/moved
     -D CMAKE_BUILD_TYPE=Release)
 run(${CMAKE_COMMAND} --build ${WORK}/build)

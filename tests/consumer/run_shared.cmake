@@ -1,7 +1,7 @@
 # Builds Bumper within another project as shared libraries, installs them, moves them elsewhere, looks
 # at what they export, and uses them from outside by CMake and by pkg-config:
 #   cmake -D GENERATOR=<generator> -D BUMPER=<source tree> -D SOURCE=<tests/consumer> -D WORK=<folder>
-#         -D CXX=<compiler> -D NM=<nm> -P run_shared.cmake
+#         -D CXX=<compiler> -D COMPILER=<its kind> -D NM=<nm> -P run_shared.cmake
 cmake_minimum_required(VERSION 3.22)
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 include(${CMAKE_CURRENT_LIST_DIR}/pkg_config.cmake)
@@ -30,7 +30,9 @@ foreach(library IN LISTS libraries)
 endforeach()
 set(LIBRARIES ${libraries})
 set(HEADERS ${WORK}/moved/include ${BUMPER}/response/base/internal ${BUMPER}/scenes/src)
-include(${SOURCE}/exported_symbols.cmake)
+if(COMPILER STREQUAL "GNU")
+  include(${SOURCE}/exported_symbols.cmake)
+endif()
 
 run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCE}/borders -B ${WORK}/borders
     -D CMAKE_PREFIX_PATH=${WORK}/moved -D CMAKE_CXX_COMPILER=${CXX})

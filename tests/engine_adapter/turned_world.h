@@ -60,9 +60,10 @@ class TurnedWorld {
 
   /// Upright, turned by `yaw`.
   dGeomID addBox(const Eigen::Vector3d& place, double yaw, const Eigen::Vector3d& lengths) {
-    // Its own axes are those of the world.
-    const Eigen::Vector3d there_ = axes_.metre * (axes_.world * lengths).cwiseAbs();
-    const dGeomID box = dCreateBox(ode_.space, there_.x(), there_.y(), there_.z());
+    // In a tilted world its own axes are the usual ones, tilted alike; else the world's.
+    const Eigen::Vector3d size =
+        axes_.metre * (isTilted() ? lengths : Eigen::Vector3d((axes_.world * lengths).cwiseAbs()));
+    const dGeomID box = dCreateBox(ode_.space, size.x(), size.y(), size.z());
     stand(box, place, yaw);
     return box;
   }
@@ -110,6 +111,8 @@ class TurnedWorld {
                        inertia(0, 1), inertia(0, 2), inertia(1, 2));
     dBodySetMass(body, &mass);
     dBodySetFiniteRotationMode(body, 1);
+    // ODE solves for it row by row, which rounds differently in other axes.
+    dBodySetGyroscopicMode(body, 0);
     const Eigen::Vector3d p = there(start.place);
     dBodySetPosition(body, p.x(), p.y(), p.z());
     turn(body, start);
@@ -159,6 +162,7 @@ class TurnedWorld {
   }
 
  private:
+  [[nodiscard]] bool isTilted() const { return axes_.world.col(2).cwiseAbs().maxCoeff() != 1.0; }
   static ResponderOptions with(ResponderOptions options, const OtherAxes& axes) {
     options.axes = {.up = axes.world.col(2), .metre = axes.metre};
     return options;
@@ -171,13 +175,12 @@ class TurnedWorld {
   void stand(dGeomID geom, const Eigen::Vector3d& place, double yaw) {
     move(geom, place);
     const Eigen::Vector3d up = axes_.world.col(2);
-    if (up.cwiseAbs().maxCoeff() == 1.0) {
+    if (!isTilted()) {
       dMatrix3 rotation;
       dRFromAxisAndAngle(rotation, up.x(), up.y(), up.z(), yaw);
       dGeomSetRotation(geom, rotation);
       return;
     }
-    // A tilted world: a box whose axes follow it.
     const Eigen::Matrix3d r =
         axes_.world * Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     set(geom, r);
@@ -189,8 +192,13 @@ class TurnedWorld {
   }
   void point(dGeomID geom, const Eigen::Vector3d& place, const Eigen::Vector3d& axis) {
     move(geom, place);
-    set(geom, Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axes_.world * axis)
-                  .toRotationMatrix());
+    const Eigen::Vector3d z = axes_.world * axis;
+    if ((z.array() == 0.0).count() == 2) {
+      // To the last bit.
+      set(geom, columns({z.z(), z.x(), z.y()}, {z.y(), z.z(), z.x()}, z));
+      return;
+    }
+    set(geom, Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), z).toRotationMatrix());
   }
   void turn(dBodyID body, const Start& start) const {
     const Eigen::Vector3d up = axes_.world.col(2);

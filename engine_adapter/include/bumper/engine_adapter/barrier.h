@@ -2,6 +2,7 @@
 
 #include <ode/ode.h>
 
+#include <Eigen/Core>
 #include <map>
 #include <optional>
 #include <string>
@@ -17,6 +18,12 @@ namespace BUMPER_API bumper {
 struct BarrierId {
   int value = -1;
   bool operator==(const BarrierId&) const = default;
+};
+
+/// How a barrier moves, world: of the place of its geom, m/s, and the rotation of it all, rad/s.
+struct BarrierVelocity {
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();
 };
 
 struct BarrierOptions {

@@ -87,16 +87,18 @@ inline constexpr unsigned kinematic = 128;  ///< a body of a vehicle was made ki
 /// for one step (ResponderOptions::guardContacts), in a joint group of its own. Until the world
 /// steps, a body of the responder's moves in it, to measure the step.
 ///
-/// Barriers stand still between calls of updateBarrier(): a scene, or a geom of the application's.
+/// Barriers stand still, but for those whose geom has a body, which move with that, and those that
+/// updateBarrier() is called for before each step.
 /// Nothing here touches data, callbacks or collision bits of the application's geoms and bodies.
 ///
-/// The end: best is the responder first, then geoms and spaces, then the world. Otherwise bodies
-/// must not be gone when a call reads them: step(), claims(), keepUnclaimed(), save() and what
-/// takes a VehicleId; only updateBarrier() reads geoms of the application's. removeVehicle(),
-/// removeBarrier() and the destructor read neither. The new geom of a barrier may be destroyed with
-/// its space, or by itself unless in a quadtree space, and be moved to a space connected with the
-/// old one: one is in the other, or both are in a third. Its walls act until removeBarrier(). A
-/// geom made in no space is destroyed by Bumper, and must not be in a space when that is destroyed.
+/// The end: best is the responder first, then geoms and spaces, then the world. Otherwise bodies,
+/// those of barriers too, must not be gone when a call reads them: step(), claims(),
+/// keepUnclaimed(), save() and what takes a VehicleId; only updateBarrier() reads geoms of the
+/// application's. removeVehicle(), removeBarrier() and the destructor read neither. The new geom of
+/// a barrier may be destroyed with its space, or by itself unless in a quadtree space, and be moved
+/// to a space connected with the old one: one is in the other, or both are in a third. Its walls
+/// act until removeBarrier(). A geom made in no space is destroyed by Bumper, and must not be in a
+/// space when that is destroyed.
 ///
 /// Set-up calls throw Error and then change nothing; step(), claims() and keepUnclaimed() do not
 /// throw, unless memory runs out. A moved-from responder can only be destroyed or assigned to. One
@@ -122,10 +124,12 @@ class Responder {
   /// A geom that the application already has: the walls of a trimesh, road and walls in one, the
   /// sides of a box, a plane, which is half of the world, an upright cylinder or capsule, or a
   /// sphere; of round ends what is steeper than 45°, as a circle where that is widest within a
-  /// vehicle's band. A capsule that leans further is read as 24 flat sides. It must stand still
-  /// from now on, or updateBarrier() be called. ODE stores a trimesh's vertices in single
-  /// precision; they are read as stored. Throws Error if it is of another class, has a body, is
-  /// registered already or has no wall.
+  /// vehicle's band. A capsule that leans further is read as 24 flat sides. With a
+  /// body it moves as that does, whose velocity of before a step holds for the step: one that
+  /// forces move should be far heavier than vehicles, counts as infinitely heavy in the law, and
+  /// takes the opposite impulse. Without, it must stand still from now on, or updateBarrier() be
+  /// called. ODE stores a trimesh's vertices in single precision; they are read as stored. Throws
+  /// Error if it is of another class, belongs to a vehicle, is registered already or has no wall.
   BarrierId addBarrier(dGeomID geom, const BarrierOptions& options = {});
 
   /// Every geom in a space, and in the spaces in it, that stands still and has a wall, as a barrier
@@ -135,21 +139,29 @@ class Responder {
   /// holds one, whose content cannot be read; or if a setting is invalid.
   const SpaceBarriers& addBarriers(dSpaceID space, const BarrierOptions& options = {});
   /// Call after geoms came into such a space, left it, were destroyed or moved: new ones are added,
-  /// those that are gone removed, and those that stand or are sized differently read anew; others
-  /// cost nothing. Until then the walls stay as they were. What changes in a trimesh without its
-  /// bounding box is for updateBarrier(). Throws Error as addBarriers() does, and if the space was
-  /// not added.
+  /// those that are gone removed, and those that stand differently moved, and those that are
+  /// sized differently read anew; others cost nothing. Until then the walls stay as they were. What
+  /// changes in a trimesh without its bounding box is for updateBarrier(). Throws Error as
+  /// addBarriers() does, and if the space was not added.
   const SpaceBarriers& updateBarriers(dSpaceID space);
   /// Removes those barriers. The space may be gone. Throws Error if it was not added.
   void removeBarriers(dSpaceID space);
 
-  /// Call after the application has moved or changed a barrier's geom: its walls are read anew. Of
+  /// Call after the application has moved or changed a barrier's geom. If its shape is another, or
+  /// it leans otherwise, its walls are read anew, which costs as much as adding it. Of
   /// a barrier made from a scene, or whose shape is given as one, the scene as it is now takes the
   /// old one's place; its own geom is then a new one, in the same space. Id, name, settings and the
   /// contacts of vehicles are kept; a vehicle that it was moved into is freed by penetration
-  /// recovery, without an impulse. The last step's events are void. Costs as much as adding it.
-  /// Throws Error as addBarrier() does, and if the barrier's own geom was destroyed.
+  /// recovery, without an impulse. The last step's events are void. Throws
+  /// Error as addBarrier() does, and if the barrier's own geom was destroyed.
+  ///
+  /// A geom that was only moved costs next to nothing, also that of a scene: moved before each of
+  /// two steps in a row it has the velocity from one place to the next, and hits vehicles with it.
+  /// A velocity that is given holds for the coming step. One that is not updated before a step
+  /// stands still in it. A body that the geom has got or lost since is noticed. Throws Error if the
+  /// velocity is not finite, the geom has a body or is a plane.
   void updateBarrier(BarrierId barrier);
+  void updateBarrier(BarrierId barrier, const BarrierVelocity& velocity);
   void updateBarrier(BarrierId barrier, const Scene& scene);
 
   /// The geom in a barrier's contacts: the new one, which is null once its space was destroyed, or

@@ -18,8 +18,9 @@ namespace BUMPER_API bumper {
 /// that broke those of its barrier with its settings.
 struct PassableWall {
   BarrierId barrier;
-  int settings = 0;                                  ///< number of the settings in the barrier
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();   ///< where it was hit, m
+  int settings = 0;  ///< number of the settings in the barrier
+  /// Where it was hit, m; of a barrier that moves as that stood when its walls were read.
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, into the vehicle
   double until = 0.0;                                ///< end of the pulse; 0 if it broke
   double depth = 0.0;                                ///< penetration that the pulse allows, m
@@ -95,10 +96,26 @@ struct VehicleMemory {
   std::vector<GuardLoad> guards;  ///< in a saved state only
 };
 
+/// How a barrier that moves stood before the last step, and moved.
+struct BarrierMotion {
+  BarrierId barrier;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of its body or else its geom, m
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< of that place, m/s
+  Eigen::Vector3d turning = Eigen::Vector3d::Zero();   ///< rad/s
+  // Of one that updateBarrier() has moved: when last, in how many successive steps, and where it
+  // was before that.
+  double moved = -1.0;
+  int moves = 0;
+  Eigen::Vector3d lastPosition = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d lastAxes = Eigen::Matrix3d::Identity();
+};
+
 /// All that a responder remembers: Responder::save() and restore().
 struct SavedState {
   double time = 0.0;
   std::vector<VehicleMemory> vehicles;
+  std::vector<BarrierMotion> barriers;  ///< those that move
 };
 
 }  // namespace bumper

@@ -50,8 +50,13 @@ class AngleCurve {
   /// Smallest and largest value over 0 to π/2.
   [[nodiscard]] std::pair<double, double> range() const;
 
- private:
+  /// What it was made of: a constant is a cosine with equal ends, a table has no ends.
   enum class Shape { cosine, half_cosine, table };
+  [[nodiscard]] Shape shape() const { return shape_; }
+  [[nodiscard]] double grazing() const { return grazing_; }
+  [[nodiscard]] double headOn() const { return headOn_; }
+
+ private:
   [[nodiscard]] double atCosine(double cosine) const;
   [[nodiscard]] double inTable(double angle) const;
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// What shared libraries let others see. Everything is hidden that does not stand in a namespace
+// What shared libraries let others see. By GCC everything is hidden that does not stand in a namespace
 // opened with one of these:
 //
 //   namespace BUMPER_API bumper {
