@@ -119,17 +119,6 @@ TEST_P(GoldenCloseUp, isMissedByACarThatIsTurned) {
 
 INSTANTIATE_TEST_SUITE_P(TestRail, GoldenCloseUp, ::testing::Values(0U, 1U));
 
-/// Of two vehicles, small.
-TEST(GoldenPair, isMatched) {
-  const std::filesystem::path golden = std::filesystem::path(GOLDEN_FOLDER) / "close_up_pair.png";
-  const auto draw = [](const Recording& run) {
-    return impactCloseUp(testRail(), run, 0, {.width = 640, .height = 360});
-  };
-  EXPECT_THAT(draw(testing::sideHit()), MatchesGolden(golden, {.output = OUTPUT_FOLDER}));
-  const Recording other = testing::turned(testing::sideHit(), 2.0 * std::numbers::pi / 180.0);
-  EXPECT_FALSE(compareImages(readPng(golden), draw(other)).isSame);
-}
-
 /// Marks that go, one at a time, from a picture that otherwise stays the same.
 TEST(GoldenTestRail, isMissedWithoutAnyOneMark) {
   const Case which = cases()[0];
