@@ -7,6 +7,7 @@
 
 #include "bumper/response/outline.h"
 #include "bumper/response/segment.h"
+#include "outside.h"
 
 namespace bumper {
 
@@ -39,14 +40,6 @@ class CrowdedWalls {
     std::uint64_t place;
     std::size_t segment;
   };
-  struct Extreme {
-    double distance;
-    std::size_t segment;
-    Vector2 point;
-  };
-  static constexpr std::size_t directions = 16;
-  using Outside = std::array<Extreme, directions>;
-
   void findCells(const std::vector<Segment>& segments, double size);
   void joinCells();
   [[nodiscard]] std::size_t crowdOf(std::size_t cell) const;

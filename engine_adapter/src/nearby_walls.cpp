@@ -49,6 +49,7 @@ void NearbyWalls::list(const Envelope& vehicle,
   const double radius =
       vehicle.radius() + std::max(margins_.front, margins_.rear) + margins_.side + margins_.height;
   faces_.clear();
+  withFine_.clear();
   surfaces_.clear();
   owners_.clear();
   for (const std::unique_ptr<Barrier>& barrier : barriers) {
@@ -60,8 +61,13 @@ void NearbyWalls::list(const Envelope& vehicle,
                         .surface = surfaceNumber(*barrier, 0)});
     } else {
       listFaces(*barrier, query_.list(*barrier->mesh(), vehicle, state, margins_));
+      const FineWalls& fine = barrier->mesh()->fineWalls();
+      if (fine.isEmpty()) continue;
+      withFine_.push_back(barrier.get());
+      fine.forEachMesh([&](int wall) { surfaceNumber(*barrier, wall); });
     }
   }
+  listedFaces_ = faces_.size();
   listedSurfaces_ = surfaces_.size();
   isKnown_ = true;
 }
@@ -136,6 +142,29 @@ std::optional<Segment> NearbyWalls::pieceOf(const Near& near, const Envelope& ve
   return piece;
 }
 
+void NearbyWalls::addFineWalls(const Envelope& vehicle, const VehicleState& state,
+                               const PlanRectangle& within) {
+  for (const Barrier* barrier : withFine_) {
+    const WallTable& table = barrier->mesh()->walls();
+    barrier->mesh()->fineWalls().find(vehicle, state, within, fine_);
+    for (const FineWalls::Crowd& crowd : fine_) {
+      Segment side;
+      side.id = static_cast<int>(faces_.size());
+      side.surface = surfaceNumber(*barrier, crowd.wall);
+      faces_.push_back({.barrier = barrier,
+                        .walls = table.faceOf(static_cast<std::size_t>(crowd.wall)),
+                        .surface = side.surface});
+      crowd.outside.forEachSide(
+          [&](const Outside::Extreme& from, const Outside::Extreme& to, const Vector2& normal) {
+            side.start = from.point;
+            side.end = to.point;
+            side.normal = normal;
+            segments_.push_back(side);
+          });
+    }
+  }
+}
+
 void NearbyWalls::collect(const Envelope& vehicle,
                           const std::vector<std::unique_ptr<Barrier>>& barriers,
                           const VehicleState& state, const Question& question) {
@@ -143,7 +172,10 @@ void NearbyWalls::collect(const Envelope& vehicle,
   surfaces_.resize(listedSurfaces_);
   owners_.resize(listedSurfaces_);
   segments_.clear();
-  if (!question.evenIfNoneIsThere && !wasThere_) {
+  faces_.resize(listedFaces_);
+  const PlanRectangle within = vehicle.outline().enlarged(question.reach);
+  if (!withFine_.empty()) addFineWalls(vehicle, state, within);
+  if (segments_.empty() && !question.evenIfNoneIsThere && !wasThere_) {
     const auto mayBeThere = [&](const Near& each) {
       return mayMeet(each, vehicle, state, question.around);
     };
@@ -153,9 +185,9 @@ void NearbyWalls::collect(const Envelope& vehicle,
     rectangle.half.array() += piece.radius;
     return !rectangle.misses(piece.start, piece.end);
   };
-  const PlanRectangle within = vehicle.outline().enlarged(question.reach);
-  wasThere_ = false;
-  for (std::size_t i = 0; i < faces_.size(); ++i) {
+  wasThere_ = std::any_of(segments_.begin(), segments_.end(),
+                          [&](const Segment& piece) { return meets(question.around, piece); });
+  for (std::size_t i = 0; i < listedFaces_; ++i) {
     if (!mayMeet(faces_[i], vehicle, state, within)) continue;
     const std::optional<Segment> piece = pieceOf(faces_[i], vehicle, state, question.reach);
     if (!piece || !meets(within, *piece)) continue;

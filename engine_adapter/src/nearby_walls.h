@@ -12,6 +12,7 @@
 #include "bumper/response/collision_step.h"
 #include "crowded_walls.h"
 #include "envelope.h"
+#include "fine_walls.h"
 #include "vehicle_bodies.h"
 #include "wall_face.h"
 #include "wall_query.h"
@@ -100,6 +101,8 @@ class NearbyWalls {
                                         const VehicleState& state, double reach);
   void list(const Envelope& vehicle, const std::vector<std::unique_ptr<Barrier>>& barriers,
             const VehicleState& state, double reach);
+  void addFineWalls(const Envelope& vehicle, const VehicleState& state,
+                    const PlanRectangle& within);
   void listFaces(const Barrier& barrier, std::span<const int> walls);
   int surfaceNumber(const Barrier& barrier, int wall);
 
@@ -109,6 +112,9 @@ class NearbyWalls {
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  // its axes, and
   WallQuery::Margins margins_;                          // how far it reaches beyond the envelope
   std::vector<Near> faces_;
+  std::size_t listedFaces_ = 0;  // the first of them; then one for each crowd of fine walls
+  std::vector<const Barrier*> withFine_;  // barriers that may be near
+  std::vector<FineWalls::Crowd> fine_;
   std::vector<Surface> surfaces_;
   std::vector<Owner> owners_;       // of the surfaces
   std::size_t listedSurfaces_ = 0;  // the first of both; what comes after is entered
