@@ -40,6 +40,7 @@ bool isDeepIn(const Outline& outline, const Vector2& point) {
 }  // namespace
 
 void CrowdedWalls::reduce(std::vector<Segment>& segments, const Outline& outline) {
+  keepEntered_ = segments.size() <= mostEntered;
   double size = smallestCell;
   for (int i = 0; i <= doublings && segments.size() > most; ++i, size *= 2.0) {
     reduced_.clear();
@@ -126,7 +127,7 @@ void CrowdedWalls::addOutsides(const std::vector<Segment>& segments, const Outli
     for (std::size_t member = cells_[i].first; member < cells_[i].last; ++member) {
       const std::size_t number = members_[member].segment;
       for (const Vector2& point : {segments[number].start, segments[number].end}) {
-        cells_[crowd].isEntered |= isDeepIn(outline, point);
+        cells_[crowd].isEntered |= keepEntered_ && isDeepIn(outline, point);
         outside.include(point, number);
       }
     }

@@ -17,7 +17,10 @@ constexpr std::uint32_t crowded = 64;
 
 // Groups are divided until they are no wider and no taller than this, m.
 constexpr double narrowest = 0.2;
-constexpr double lowest = 0.05;
+constexpr double lowest = 0.02;
+
+// Crowds that are so many times as wide, or more, need not end exactly where the band does.
+constexpr double wide = 4.0;
 
 // Crowds are doubled in size so often, and then are what a mesh is in all.
 constexpr int coarsenings = 8;
@@ -78,11 +81,12 @@ struct FineWalls::View {
   }
   // All of it is in the band, and its foot is below its top; or little is not.
   [[nodiscard]] bool isWhole(const Group& group, const Place& place) const {
-    if (2.0 * group.half.z() <= coarseness * lowest) return true;
+    const double slack = std::max(coarseness / wide, 1.0);
+    if (2.0 * group.half.z() <= slack * lowest) return true;
     const double lean = state.up().head<2>().norm();
     return place.middle.z() - place.half.z() >= vehicle.low() &&
            place.middle.z() + place.half.z() <= vehicle.high() &&
-           2.0 * group.half.z() * lean <= coarseness * mostLean;
+           2.0 * group.half.z() * lean <= slack * mostLean;
   }
 };
 
