@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     bumper::RunDescription run;
     const bumper::Recording recording = bumper::readRecording(file.path(), &run, limits);
-    if (recording.vehicleCount() > limits.names) std::abort();
+    if (recording.vehicles().size() > limits.names) std::abort();
   } catch (const bumper::Error& error) {
     if (std::string(error.what()).find(file.path().string()) == std::string::npos) std::abort();
   }
