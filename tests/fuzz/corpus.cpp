@@ -49,7 +49,7 @@ void writeAll(const std::filesystem::path& folder) {
                                              bumper::testRail()};
   for (const bumper::Scene& scene : scenes) {
     write(folder / "walls" / scene.name, seedOf(scene, '\4'));
-    write(folder / "pictures" / scene.name, seedOf(scene, '\0'));
+    write(folder / "pictures" / scene.name, seedOf(scene, '\1'));
     write(folder / "stream" / scene.name,
           bumper::pack(bumper::FileScene{.scene = scene, .format = "obj"}));
   }

@@ -27,13 +27,13 @@ void look(bumper::fuzz::Input& input) {
     if (hidden < 0 || hidden > 2) std::abort();
   }
   // The software renderer takes a thousand times as long.
-  if (kind % 64 != 0) return;
+  if (kind % 128 != 0) return;
   static const bumper::Recording run = bumper::testing::cornerHits();
   bumper::SnapshotOptions options;
   options.width = 160;
   options.height = 120;
   options.view =
-      (kind & 64U) != 0 ? bumper::SnapshotView::top : bumper::SnapshotView::three_quarter;
+      (kind & 128U) != 0 ? bumper::SnapshotView::top : bumper::SnapshotView::three_quarter;
   const bumper::Image image = bumper::renderSnapshot(scene, run, options);
   if (image.width() != options.width || image.height() != options.height) std::abort();
 }
