@@ -15,6 +15,7 @@
 #include "bumper/scenes/scene_files.h"
 #include "impact_table.h"
 #include "results.h"
+#include "scene_parts.h"
 #include "tool.h"
 
 namespace {
@@ -37,30 +38,16 @@ ResponseSettings fenceSettings() {
   return settings;
 }
 
-/// Adds a part that is one mesh.
-void add(const Scene& part, const SceneMesh& mesh, Scene& scene) {
-  const auto first = static_cast<std::uint32_t>(scene.vertices.size());
-  scene.vertices.insert(scene.vertices.end(), part.vertices.begin(), part.vertices.end());
-  for (Scene::Triangle triangle : part.triangles) {
-    for (std::uint32_t& corner : triangle.corners) corner += first;
-    triangle.mesh = static_cast<std::uint32_t>(scene.meshes.size());
-    scene.triangles.push_back(triangle);
-  }
-  scene.meshes.push_back(mesh);
-}
-
 /// A fence along y and a wall 14 m behind it, in one scene: they differ by their material.
 Scene yard() {
-  Scene ground;
-  ground.vertices = {{-20, -25, 0}, {50, -25, 0}, {50, 85, 0}, {-20, 85, 0}};
-  ground.triangles = {{{0, 1, 2}}, {{0, 2, 3}}};
   Scene scene;
   scene.name = "yard";
-  add(straightWall({20.0, -12.0}, {20.0, 45.0}, 1.0, 19, 1),
-      {.name = "fence", .material = "wood", .colour = {0.72F, 0.53F, 0.30F}}, scene);
-  add(straightWall({34.0, -12.0}, {34.0, 70.0}, 1.2, 20, 1),
-      {.name = "wall", .material = "concrete", .colour = {0.72F, 0.70F, 0.66F}}, scene);
-  add(ground, {.name = "ground", .material = "gravel", .colour = {0.45F, 0.46F, 0.44F}}, scene);
+  addPart(straightWall({20.0, -12.0}, {20.0, 45.0}, 1.0, 19, 1),
+          {.name = "fence", .material = "wood", .colour = {0.72F, 0.53F, 0.30F}}, scene);
+  addPart(straightWall({34.0, -12.0}, {34.0, 70.0}, 1.2, 20, 1),
+          {.name = "wall", .material = "concrete", .colour = {0.72F, 0.70F, 0.66F}}, scene);
+  addPart(level({-20, -25}, {50, 85}),
+          {.name = "ground", .material = "gravel", .colour = {0.45F, 0.46F, 0.44F}}, scene);
   return scene;
 }
 

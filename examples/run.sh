@@ -19,7 +19,7 @@ done
 
 mkdir -p "$root/build"
 install_packages build
-configure_and_build --target test_rail course break_through bumper-drive bumper-replay bumper-plot \
+configure_and_build --target test_rail course break_through wall_in_c bumper-drive bumper-replay bumper-plot \
   bumper-read-scene
 cd "$root"
 
@@ -44,6 +44,9 @@ say "A lap of the course"
 
 say "Through a fence"
 "$build/bin/break_through" out/break_through
+
+say "A wall, from C"
+"$build/bin/wall_in_c"
 
 say "A drive on a real track"
 if [ "$download" = 1 ]; then "$root/examples/fetch_tracks.sh" road/aalborg || true; fi

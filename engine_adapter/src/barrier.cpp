@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <numbers>
 #include <utility>
 
 #include "bumper/response/error.h"
 #include "geom_class.h"
+#include "geom_shape.h"
 #include "ode_vectors.h"
 
 namespace bumper {
@@ -16,8 +19,30 @@ namespace {
 // A contact whose normal is steeper than this is one with a top.
 constexpr double steepNormal = 0.7;
 
+// Upright enough for a post?
+bool isUpright(dGeomID capsule, const WorldFrame& frame, double maxNormalUp) {
+  const Eigen::Vector3d axis = frame.direction(toMatrix(dGeomGetRotation(capsule)).col(2));
+  return axis.head<2>().norm() <= maxNormalUp;
+}
+
+// What is to be done about a geom whose walls ODE does not tell.
+[[noreturn]] void refuse(dGeomID geom) {
+  const std::string what = std::string("addBarrier: the geom is ") + classNameOf(geom);
+  switch (dGeomGetClass(geom)) {
+    case dRayClass:
+      throw Error(what + ", which nothing bumps into");
+    case dGeomTransformClass:
+      throw Error(what + ": place the geom in it with dGeomSetPosition, and add that one");
+    default:
+      throw Error(what +
+                  ", whose shape ODE does not tell: give its faces as a scene, addBarrier(scene, "
+                  "{.geom = geom}); a trimesh, box, plane, cylinder, capsule or sphere can be a "
+                  "barrier as it is");
+  }
+}
+
 // The sides of a box, wound so that their normals point outwards.
-Scene sceneOfBox(dGeomID box, const std::string& name) {
+Scene sceneOfBox(dGeomID box, const WorldFrame& frame, const std::string& name) {
   dVector3 lengths;
   dGeomBoxGetLengths(box, lengths);
   const Eigen::Vector3d half = 0.5 * toVector(lengths);
@@ -30,7 +55,7 @@ Scene sceneOfBox(dGeomID box, const std::string& name) {
     const Eigen::Vector3d corner((i & 1) != 0 ? half.x() : -half.x(),
                                  (i & 2) != 0 ? half.y() : -half.y(),
                                  (i & 4) != 0 ? half.z() : -half.z());
-    scene.vertices.emplace_back(place + axes * corner);
+    scene.vertices.emplace_back(frame.vector(place + axes * corner));
   }
   constexpr std::array<std::array<std::uint32_t, 4>, 6> sides = {
       {{1, 3, 7, 5}, {2, 0, 4, 6}, {3, 2, 6, 7}, {0, 1, 5, 4}, {4, 5, 7, 6}, {2, 3, 1, 0}}};
@@ -41,47 +66,102 @@ Scene sceneOfBox(dGeomID box, const std::string& name) {
   return scene;
 }
 
+// A capsule that leans or lies, as rings of corners around its axis, wound likewise. The corners
+// lie on it, some of them where it is widest seen from above.
+Scene sceneOfCapsule(dGeomID capsule, const WorldFrame& frame, const std::string& name) {
+  constexpr std::uint32_t around = 24;
+  constexpr int ringsOfEnd = 6;
+  dReal radius = 0.0;
+  dReal length = 0.0;
+  dGeomCapsuleGetParams(capsule, &radius, &length);
+  const Eigen::Vector3d place = toVector(dGeomGetPosition(capsule));
+  const Eigen::Vector3d axis = toMatrix(dGeomGetRotation(capsule)).col(2);
+  const Eigen::Vector3d up = frame.directionInWorld(Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d aside = up.cross(axis).normalized();
+  const Eigen::Vector3d above = axis.cross(aside);
+  Scene scene;
+  scene.name = name;
+  scene.meshes.push_back({.name = name, .material = "", .colour = {0.7F, 0.7F, 0.7F}});
+  const auto addRing = [&](double along, double wide) {
+    for (std::uint32_t i = 0; i < around; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / around;
+      scene.vertices.push_back(frame.vector(
+          place + along * axis + wide * (std::cos(angle) * aside + std::sin(angle) * above)));
+    }
+  };
+  for (const double end : {-1.0, 1.0}) {
+    for (int i = 0; i < ringsOfEnd; ++i) {
+      const int ring = end < 0.0 ? i - ringsOfEnd + 1 : i;
+      const double angle = 0.5 * std::numbers::pi * ring / ringsOfEnd;
+      addRing(0.5 * end * length + radius * std::sin(angle), radius * std::cos(angle));
+    }
+  }
+  const auto rings = static_cast<std::uint32_t>(scene.vertices.size()) / around;
+  for (const double end : {-1.0, 1.0}) {
+    scene.vertices.push_back(frame.vector(place + end * (0.5 * length + radius) * axis));
+  }
+  const std::uint32_t first = around * rings;
+  for (std::uint32_t i = 0; i < around; ++i) {
+    const std::uint32_t next = (i + 1) % around;
+    scene.triangles.push_back({.corners = {first, next, i}, .mesh = 0});
+    for (std::uint32_t ring = 0; ring + 1 < rings; ++ring) {
+      const std::uint32_t low = around * ring;
+      const std::uint32_t high = low + around;
+      scene.triangles.push_back({.corners = {low + i, low + next, high + next}, .mesh = 0});
+      scene.triangles.push_back({.corners = {low + i, high + next, high + i}, .mesh = 0});
+    }
+    const std::uint32_t last = around * (rings - 1);
+    scene.triangles.push_back({.corners = {last + i, last + next, first + 1}, .mesh = 0});
+  }
+  return scene;
+}
+
 }  // namespace
 
-Barrier::Barrier(BarrierId id, const Scene& scene, const BarrierOptions& options, std::string name,
-                 const ResponseSettings& usual)
+Barrier::Barrier(BarrierId id, const Scene& scene, const WorldFrame& frame,
+                 const BarrierOptions& options, std::string name, const ResponseSettings& usual)
     : id_(id), name_(std::move(name)), hasScene_(true) {
   keepOptions(options);
-  mesh_.emplace(scene, options, name_);
-  keepGeom(mesh_->geom());
+  mesh_.emplace(scene, frame, options, name_);
+  keepGeom(mesh_->geom(), frame);
   keepSettings(usual);
 }
 
-Barrier::Barrier(BarrierId id, dGeomID geom, const BarrierOptions& options, std::string name,
-                 const ResponseSettings& usual)
+Barrier::Barrier(BarrierId id, dGeomID geom, const WorldFrame& frame, const BarrierOptions& options,
+                 std::string name, const ResponseSettings& usual)
     : id_(id), name_(std::move(name)), hasScene_(false) {
   keepOptions(options);
   switch (dGeomGetClass(geom)) {
     case dTriMeshClass:
-      mesh_.emplace(geom, options, name_);
+      mesh_.emplace(geom, frame, options, name_);
       break;
     case dBoxClass:
-      mesh_.emplace(sceneOfBox(geom, name_), geom, options, name_);
+      mesh_.emplace(sceneOfBox(geom, frame, name_), geom, true, options, name_);
       break;
+    case dCapsuleClass:
+      if (!isUpright(geom, frame, options.walls.maxNormalUp)) {
+        mesh_.emplace(sceneOfCapsule(geom, frame, name_), geom, true, options, name_);
+        break;
+      }
+      [[fallthrough]];
+    case dSphereClass:
     case dPlaneClass:
     case dCylinderClass:
-      primitive_.emplace(geom, options.walls.maxNormalUp);
+      primitive_.emplace(geom, frame, options.walls.maxNormalUp);
       break;
     default:
-      throw Error(std::string("addBarrier: the geom is ") + classNameOf(geom) +
-                  ": a trimesh, box, plane or cylinder can be a barrier as it is; of another the "
-                  "shape must be given as a scene");
+      refuse(geom);
   }
-  keepGeom(geom);
+  keepGeom(geom, frame);
   keepSettings(usual);
 }
 
-Barrier::Barrier(BarrierId id, dGeomID geom, const Scene& shape, const BarrierOptions& options,
-                 std::string name, const ResponseSettings& usual)
+Barrier::Barrier(BarrierId id, dGeomID geom, const Scene& shape, const WorldFrame& frame,
+                 const BarrierOptions& options, std::string name, const ResponseSettings& usual)
     : id_(id), name_(std::move(name)), hasScene_(true) {
   keepOptions(options);
-  mesh_.emplace(shape, geom, options, name_);
-  keepGeom(geom);
+  mesh_.emplace(shape, geom, dGeomGetClass(geom) == dBoxClass, options, name_);
+  keepGeom(geom, frame);
   keepSettings(usual);
 }
 
@@ -92,11 +172,16 @@ void Barrier::keepOptions(const BarrierOptions& options) {
   options_.walls.scenery = scenery_;
 }
 
-void Barrier::keepGeom(dGeomID geom) {
+void Barrier::keepGeom(dGeomID geom, const WorldFrame& frame) {
   geom_ = geom;
   geomClass_ = dGeomGetClass(geom);
   if (geomClass_ == dTriMeshClass) geomData_ = dGeomTriMeshGetTriMeshDataID(geom);
+  frame_.emplace(geom, frame);
+  up_ = frame.directionInWorld(Eigen::Vector3d::UnitZ());
+  shape_ = shapeOf(geom, up_);
 }
+
+bool Barrier::hasSameShape() const { return isStill(geom_) && shapeOf(geom_, up_) == shape_; }
 
 bool Barrier::isStill(dGeomID existing) const {
   return existing == geom_ && dGeomGetClass(existing) == geomClass_ &&

@@ -2,28 +2,31 @@
 
 #include <ode/ode.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "barrier_frame.h"
 #include "barrier_mesh.h"
 #include "bumper/engine_adapter/barrier.h"
 #include "primitive_wall.h"
+#include "world_frame.h"
 
 namespace bumper {
 
 /// The barrier of a BarrierId: triangles, or a plane or cylinder of ODE's.
 class Barrier {
  public:
-  /// A scene, as a new geom.
-  Barrier(BarrierId id, const Scene& scene, const BarrierOptions& options, std::string name,
-          const ResponseSettings& usual);
-  /// A geom of the application's: trimesh, box, plane or cylinder.
-  Barrier(BarrierId id, dGeomID geom, const BarrierOptions& options, std::string name,
-          const ResponseSettings& usual);
-  /// A geom of the application's whose shape is given as a scene.
-  Barrier(BarrierId id, dGeomID geom, const Scene& shape, const BarrierOptions& options,
+  /// A scene, as a new geom. Scenes are in the frame's own axes, metres.
+  Barrier(BarrierId id, const Scene& scene, const WorldFrame& frame, const BarrierOptions& options,
           std::string name, const ResponseSettings& usual);
+  /// A geom of the application's: trimesh, box, plane or cylinder.
+  Barrier(BarrierId id, dGeomID geom, const WorldFrame& frame, const BarrierOptions& options,
+          std::string name, const ResponseSettings& usual);
+  /// A geom of the application's whose shape is given as a scene.
+  Barrier(BarrierId id, dGeomID geom, const Scene& shape, const WorldFrame& frame,
+          const BarrierOptions& options, std::string name, const ResponseSettings& usual);
   ~Barrier() = default;
   Barrier(const Barrier&) = delete;
   Barrier& operator=(const Barrier&) = delete;
@@ -37,6 +40,24 @@ class Barrier {
   [[nodiscard]] dGeomID geom() const { return geom_; }
   /// Whether a geom that has the address geom() is still that one, and not another in its place.
   [[nodiscard]] bool isStill(dGeomID existing) const;
+  /// Where its walls are now. Everything below that has a place is in this frame.
+  [[nodiscard]] const BarrierFrame& frame() const { return *frame_; }
+  [[nodiscard]] BarrierFrame& frame() { return *frame_; }
+  /// A place or direction of the world in the frame, for what is kept while it moves.
+  [[nodiscard]] Eigen::Vector3d toFrame(const Eigen::Vector3d& place) const {
+    return frame_->moves() ? frame_->toFrame(place) : place;
+  }
+  [[nodiscard]] Eigen::Vector3d directionToFrame(const Eigen::Vector3d& direction) const {
+    return frame_->moves() ? frame_->directionToFrame(direction) : direction;
+  }
+  [[nodiscard]] Eigen::Vector3d toWorld(const Eigen::Vector3d& place) const {
+    return frame_->moves() ? frame_->toWorld(place) : place;
+  }
+  [[nodiscard]] Eigen::Vector3d directionToWorld(const Eigen::Vector3d& direction) const {
+    return frame_->moves() ? frame_->directionToWorld(direction) : direction;
+  }
+  /// The geom has the shape that it had when its walls were read, whatever its place.
+  [[nodiscard]] bool hasSameShape() const;
   /// Whether its walls are given by a scene, not the geom.
   [[nodiscard]] bool hasScene() const { return hasScene_; }
   [[nodiscard]] const WallReport& report() const { return report_; }
@@ -82,7 +103,7 @@ class Barrier {
 
  private:
   void keepOptions(const BarrierOptions& options);
-  void keepGeom(dGeomID geom);
+  void keepGeom(dGeomID geom, const WorldFrame& frame);
   void keepSettings(const ResponseSettings& usual);
 
   BarrierId id_;
@@ -94,6 +115,9 @@ class Barrier {
   int geomClass_ = dTriMeshClass;
   dTriMeshDataID geomData_ = nullptr;  // of a trimesh
   WallReport report_;
+  std::optional<BarrierFrame> frame_;
+  Eigen::Vector3d up_ = Eigen::Vector3d::UnitZ();  // in the ODE world's axes
+  std::uint64_t shape_ = 0;                        // of the geom, as a check sum
   std::optional<BarrierMesh> mesh_;
   std::optional<PrimitiveWall> primitive_;
   // Barriers that follow the responder's settings form one wall where they meet: number 0 is then

@@ -53,10 +53,20 @@ std::pair<Wall, Wall> halvesAround(const Wall& wall, double more) {
   return halves;
 }
 
+// The arrays must live as long.
+OwnTriMeshData trimeshOf(const std::vector<double>& vertices,
+                         const std::vector<dTriIndex>& indices) {
+  OwnTriMeshData data(dGeomTriMeshDataCreate());
+  dGeomTriMeshDataBuildDouble(data.get(), vertices.data(), 3 * sizeof(double),
+                              static_cast<int>(vertices.size() / 3), indices.data(),
+                              static_cast<int>(indices.size()), 3 * sizeof(dTriIndex));
+  return data;
+}
+
 // Only the list of triangles is needed; no contacts are generated.
 int noContact(dGeomID /*mesh*/, dGeomID /*box*/, int /*triangle*/) { return 0; }
 
-Scene sceneOf(dGeomID trimesh, const std::string& name) {
+Scene sceneOf(dGeomID trimesh, const WorldFrame& frame, const std::string& name) {
   Scene scene;
   scene.name = name;
   scene.meshes.push_back({.name = name, .material = "", .colour = {0.7F, 0.7F, 0.7F}});
@@ -67,7 +77,9 @@ Scene sceneOf(dGeomID trimesh, const std::string& name) {
     dVector3 corners[3];
     dGeomTriMeshGetTriangle(trimesh, i, &corners[0], &corners[1], &corners[2]);
     const auto first = static_cast<std::uint32_t>(scene.vertices.size());
-    for (const dVector3& corner : corners) scene.vertices.push_back(toVector(corner));
+    for (const dVector3& corner : corners) {
+      scene.vertices.push_back(frame.vector(toVector(corner)));
+    }
     scene.triangles.push_back({.corners = {first, first + 1, first + 2}, .mesh = 0});
   }
   return scene;
@@ -84,7 +96,8 @@ const Known* find(const std::vector<Known>& sorted, std::size_t triangle) {
 
 }  // namespace
 
-BarrierMesh::BarrierMesh(const Scene& scene, const BarrierOptions& options, std::string name)
+BarrierMesh::BarrierMesh(const Scene& scene, const WorldFrame& frame, const BarrierOptions& options,
+                         std::string name)
     : name_(std::move(name)) {
   const Walls selected = selectWalls(scene, options.walls);
   keepWalls(scene, selected);
@@ -95,20 +108,20 @@ BarrierMesh::BarrierMesh(const Scene& scene, const BarrierOptions& options, std:
     keepFoot(wall, foot);
   }
   buildMesh();
-  lent_.emplace(options.space, data_.get(), walls_.origin(), 0.5 * (low_ + high_));
-  geom_ = lent_->address();
+  lendGeom(frame, options.space);
 }
 
-BarrierMesh::BarrierMesh(const Scene& scene, dGeomID geom, const BarrierOptions& options,
-                         std::string name)
-    : name_(std::move(name)), geom_(geom), solid_(dGeomGetClass(geom) == dBoxClass) {
+BarrierMesh::BarrierMesh(const Scene& scene, dGeomID geom, bool solid,
+                         const BarrierOptions& options, std::string name)
+    : name_(std::move(name)), geom_(geom), solid_(solid) {
   keepWalls(scene, selectWalls(scene, options.walls));
   buildMesh();
 }
 
-BarrierMesh::BarrierMesh(dGeomID trimesh, const BarrierOptions& options, std::string name)
+BarrierMesh::BarrierMesh(dGeomID trimesh, const WorldFrame& frame, const BarrierOptions& options,
+                         std::string name)
     : name_(std::move(name)), geom_(trimesh) {
-  const Scene scene = sceneOf(trimesh, name_);
+  const Scene scene = sceneOf(trimesh, frame, name_);
   // A wall is one from foot to top, also where no outline reaches it.
   WallSelection everywhere = options.walls;
   everywhere.groundReach.reset();
@@ -196,8 +209,8 @@ void BarrierMesh::buildMesh() {
 
   keepFineWalls();
   const std::scoped_lock guard(trimeshLock());
-  data_ = treeOf(walls_.indices());
-  if (!fine_.isEmpty()) othersData_ = treeOf(othersIndices_);
+  data_ = trimeshOf(walls_.vertices(), walls_.indices());
+  if (!othersIndices_.empty()) othersData_ = trimeshOf(walls_.vertices(), othersIndices_);
   if (fine_.isEmpty() || othersData_) {
     dTriMeshDataID data = fine_.isEmpty() ? data_.get() : othersData_.get();
     queryGeom_.reset(dCreateTriMesh(nullptr, data, nullptr, nullptr, nullptr));
@@ -219,22 +232,32 @@ void BarrierMesh::keepFineWalls() {
   }
 }
 
-// None for no triangles.
-OwnTriMeshData BarrierMesh::treeOf(const std::vector<dTriIndex>& indices) const {
-  if (indices.empty()) return nullptr;
-  const std::vector<double>& vertices = walls_.vertices();
-  OwnTriMeshData data(dGeomTriMeshDataCreate());
-  dGeomTriMeshDataBuildDouble(data.get(), vertices.data(), 3 * sizeof(double),
-                              static_cast<int>(vertices.size() / 3), indices.data(),
-                              static_cast<int>(indices.size()), 3 * sizeof(dTriIndex));
-  return data;
+// Other bodies collide with it in the world.
+void BarrierMesh::lendGeom(const WorldFrame& frame, dSpaceID space) {
+  const Eigen::Vector3d middle = frame.vectorInWorld(0.5 * (low_ + high_));
+  const Eigen::Vector3d place = frame.vectorInWorld(walls_.origin());
+  if (!frame.isUsual()) {
+    const std::vector<double>& own = walls_.vertices();
+    worldVertices_.resize(own.size());
+    for (std::size_t i = 0; i < own.size(); i += 3) {
+      const Eigen::Vector3d corner = frame.vectorInWorld({own[i], own[i + 1], own[i + 2]});
+      std::copy_n(corner.data(), 3, &worldVertices_[i]);
+    }
+    const std::scoped_lock guard(trimeshLock());
+    worldData_ = trimeshOf(worldVertices_, walls_.indices());
+    report_.memory = memory();
+  }
+  lent_.emplace(space, worldData_ ? worldData_.get() : data_.get(), place, middle);
+  geom_ = lent_->address();
 }
 
 std::size_t BarrierMesh::memory() const {
+  const std::size_t trees = worldData_ ? 2 : 1;
   return walls_.memory() + plan_.memory() + parts_.capacity() * sizeof(Part) +
-         feet_.capacity() * sizeof(Foot) + fine_.memory() + others_.capacity() * sizeof(int) +
+         feet_.capacity() * sizeof(Foot) + worldVertices_.capacity() * sizeof(double) +
+         fine_.memory() + others_.capacity() * sizeof(int) +
          othersIndices_.capacity() * sizeof(dTriIndex) +
-         (walls_.size() - 1 + others_.size()) * treeNodeSize;
+         (trees * (walls_.size() - 1) + others_.size()) * treeNodeSize;
 }
 
 WallPart BarrierMesh::partOf(int triangle) const {

@@ -15,6 +15,7 @@
 #include "lent_geom.h"
 #include "ode_handles.h"
 #include "wall_table.h"
+#include "world_frame.h"
 
 namespace bumper {
 
@@ -22,11 +23,14 @@ namespace bumper {
 class BarrierMesh {
  public:
   /// A new geom for the scene's walls in options.space.
-  BarrierMesh(const Scene& scene, const BarrierOptions& options, std::string name);
-  /// The walls of the application's geom, of any class, as a scene in world coordinates.
-  BarrierMesh(const Scene& scene, dGeomID geom, const BarrierOptions& options, std::string name);
+  BarrierMesh(const Scene& scene, const WorldFrame& frame, const BarrierOptions& options,
+              std::string name);
+  /// The walls of the application's geom, of any class, as a scene; `solid` as isSolid().
+  BarrierMesh(const Scene& scene, dGeomID geom, bool solid, const BarrierOptions& options,
+              std::string name);
   /// The walls of the application's trimesh.
-  BarrierMesh(dGeomID trimesh, const BarrierOptions& options, std::string name);
+  BarrierMesh(dGeomID trimesh, const WorldFrame& frame, const BarrierOptions& options,
+              std::string name);
   ~BarrierMesh() = default;
   BarrierMesh(const BarrierMesh&) = delete;
   BarrierMesh& operator=(const BarrierMesh&) = delete;
@@ -93,7 +97,7 @@ class BarrierMesh {
   void makePlan(std::vector<Wall> walls);
   void buildMesh();
   void keepFineWalls();
-  [[nodiscard]] OwnTriMeshData treeOf(const std::vector<dTriIndex>& indices) const;
+  void lendGeom(const WorldFrame& frame, dSpaceID space);
   [[nodiscard]] std::size_t memory() const;
 
   std::string name_;
@@ -118,6 +122,9 @@ class BarrierMesh {
   OwnTriMeshData data_;
   OwnTriMeshData othersData_;
   OwnGeom queryGeom_;  // in no space; carries our callbacks; null if all walls are fine
+  // The same walls in the world's axes and unit, if these are not Bumper's: for lent_.
+  std::vector<double> worldVertices_;
+  OwnTriMeshData worldData_;
   dGeomID geom_ = nullptr;
   std::optional<LentGeom> lent_;
   bool solid_ = false;

@@ -78,6 +78,11 @@ std::optional<OwnedVehicles> vehiclesOf(const Responder::Implementation& respond
   return OwnedVehicles{.up = plane.normal(), .areLevel = higher < levelShare * band};
 }
 
+/// A vehicle in the frame of a barrier.
+VehiclePose seenFrom(const Barrier& barrier, const VehiclePose& pose) {
+  return barrier.frame().moves() ? barrier.frame().toFrame(pose) : pose;
+}
+
 /// The pair, if Bumper may own contacts of it.
 OwnedPair pairOf(const Responder::Implementation& responder, dGeomID a, dGeomID b) {
   if (const OwnedPair pair = ordered(responder, a, b)) return pair;
@@ -133,12 +138,12 @@ class ContactPairs {
     dGeomID const second = carrierOf(second_, swapped ? a_ : b_);
     pair_ = bumper::pairOf(responder_, first, second);
     vehicles_ = vehiclesOf(responder_, first, second);
-    if (pair_) pose_ = pair_.vehicle->bodies.readPose();
+    if (pair_) pose_ = seenFrom(*pair_.barrier, pair_.vehicle->bodies.readPose());
     return pair_;
   }
   /// Of the last contact.
   [[nodiscard]] const std::optional<OwnedVehicles>& vehicles() const { return vehicles_; }
-  /// Of the last pair's vehicle.
+  /// Of the last pair's vehicle, as its barrier sees it.
   [[nodiscard]] const VehiclePose& pose() const { return pose_; }
 
  private:
@@ -191,9 +196,11 @@ bool isWithFoot(const OwnedPair& pair, const VehiclePose& pose, const Contact& c
          envelope.inBand(pose, contact.place, foot->foot, foot->top);
 }
 
-bool isOurs(const OwnedPair& pair, const VehiclePose& pose, const dContactGeom& geom) {
-  const Contact contact{.place = toVector(geom.pos),
-                        .normal = toVector(geom.normal),
+bool isOurs(const OwnedPair& pair, const VehiclePose& pose, const WorldFrame& frame,
+            const dContactGeom& geom) {
+  const Barrier& barrier = *pair.barrier;
+  const Contact contact{.place = barrier.toFrame(frame.vector(toVector(geom.pos))),
+                        .normal = barrier.directionToFrame(frame.direction(toVector(geom.normal))),
                         .triangle = pair.barrierFirst ? geom.side1 : geom.side2};
   // ODE gives no triangle index where two trimeshes meet along their edges.
   if (contact.triangle < 0 && dGeomGetClass(pair.barrier->geom()) == dTriMeshClass) {
@@ -209,16 +216,20 @@ bool Responder::claims(dGeomID a, dGeomID b) const {
   const OwnedPair pair = pairOf(*implementation_, a, b);
   // A mesh that holds ground too is decided contact by contact.
   if (!pair || !pair.barrier->hasWallsOnly()) return false;
-  return pair.vehicle->envelope.allInBand(pair.vehicle->bodies.readPose(),
-                                          pair.barrier->highestFoot(), pair.barrier->lowestTop());
+  const VehiclePose pose = seenFrom(*pair.barrier, pair.vehicle->bodies.readPose());
+  return pair.vehicle->envelope.allInBand(pose, pair.barrier->highestFoot(),
+                                          pair.barrier->lowestTop());
 }
 
 int Responder::keepUnclaimed(dGeomID a, dGeomID b, dContact* contacts, int count) const {
   ContactPairs pairs(*implementation_, a, b);
+  const WorldFrame& frame = implementation_->worldFrame;
   const auto isBumpers = [&](const dContact& contact) {
     const OwnedPair& pair = pairs.pairOf(contact.geom);
-    if (pairs.vehicles()) return pairs.vehicles()->own(toVector(contact.geom.normal));
-    return pair && isOurs(pair, pairs.pose(), contact.geom);
+    if (pairs.vehicles()) {
+      return pairs.vehicles()->own(frame.direction(toVector(contact.geom.normal)));
+    }
+    return pair && isOurs(pair, pairs.pose(), frame, contact.geom);
   };
   return static_cast<int>(std::remove_if(contacts, contacts + count, isBumpers) - contacts);
 }

@@ -41,6 +41,19 @@ void describe(const Impact& impact, const ImpactResponse& response, ImpactEvent&
   event.regime = response.contact.regime;
 }
 
+// Of the other vehicle of a guard contact, which took the opposite impulse.
+void describeOther(const Vehicle& other, const Eigen::Vector3d& contact,
+                   const Eigen::Vector3d& impulse, ImpactEvent& event) {
+  const VehicleState state = other.bodies.read();
+  const Eigen::Vector3d arm = contact - state.massCentre;
+  event.otherArm = (state.axes.transpose() * arm).head<2>();
+  event.otherVelocityBefore = event.otherVelocityAfter = state.velocity;
+  event.otherYawRateBefore = event.otherYawRateAfter = state.yawRate;
+  if (other.mover != Mover::world) return;
+  event.otherVelocityBefore += impulse / state.mass;
+  event.otherYawRateBefore += arm.cross(impulse).dot(state.up()) / state.yawInertia;
+}
+
 }  // namespace
 
 const Vehicle& Responder::Implementation::vehicleAt(const ContactPartner& with) const {
@@ -64,7 +77,7 @@ ImpactEvent Responder::Implementation::eventWith(const Vehicle& vehicle, const C
   } else {
     const Barrier& barrier = *find(barriers, with.barrier.value);
     event.barrier = barrier.name();
-    event.triangle = barrier.triangleOf(barrier.wallAt(wall, contact));
+    event.triangle = barrier.triangleOf(barrier.wallAt(wall, barrier.toFrame(contact)));
     event.material = barrier.materialOf(wall);
   }
   event.contact = contact;
@@ -101,8 +114,9 @@ void Responder::Implementation::reportImpact(Vehicle& vehicle, const Barrier& ba
   event.time = when;
   event.phase = hard ? EventPhase::impact : EventPhase::contact_begin;
   describe(impact, response, event);
-  event.velocityAfter =
-      state.toWorld(response.after.velocity) + state.up().dot(state.velocity) * state.up();
+  const Eigen::Vector3d rising = state.up().dot(state.velocity) * state.up();
+  event.velocityBefore = state.toWorld(response.before.velocity) + rising;
+  event.velocityAfter = state.toWorld(response.after.velocity) + rising;
   events.push_back(event);
 }
 
@@ -124,7 +138,10 @@ void Responder::Implementation::reportPairImpact(const Meeting& meeting, const P
   const double least =
       goesOn ? impactInContact * settings.restSpeed : impactSpeed(contacts, with, settings);
   const bool hard = response.approachSpeed > least;
-  const Eigen::Vector3d contact = plane.placeOf(impact.point);
+  // Between the heights of both, whichever is the first in the plane.
+  const double higher =
+      plane.normal().dot(meeting.second->reading.state.massCentre - state.massCentre);
+  const Eigen::Vector3d contact = plane.placeOf(impact.point) + 0.5 * higher * plane.normal();
   const Eigen::Vector3d normal = plane.toWorld(impact.normal);
   const bool begins = addToContact(contacts,
                                    {.with = with,
@@ -145,6 +162,7 @@ void Responder::Implementation::reportPairImpact(const Meeting& meeting, const P
     return Eigen::Vector3d(plane.toWorld(motion.velocity) +
                            up.dot(which.reading.state.velocity) * up);
   };
+  event.velocityBefore = velocityOf(*vehicle, response.before);
   event.velocityAfter = velocityOf(*vehicle, response.after);
   event.otherArm = rotated(impact.otherArm, -response.otherBefore.yaw);
   event.otherVelocityBefore = velocityOf(*other, response.otherBefore);
@@ -199,10 +217,11 @@ void Responder::Implementation::reportLoads(Vehicle& vehicle) {
     event.yawRateAfter = state.yawRate;
     event.yawRateBefore =
         state.yawRate - load.arm.cross(impulse).dot(state.up()) / state.yawInertia;
+    event.velocityBefore = state.velocity - impulse / state.mass;
     event.velocityAfter = state.velocity;
     event.speedAfter = (state.axes.transpose() * state.velocity).head<2>().norm();
-    event.speedBefore =
-        (state.axes.transpose() * (state.velocity - impulse / state.mass)).head<2>().norm();
+    event.speedBefore = (state.axes.transpose() * event.velocityBefore).head<2>().norm();
+    if (isVehicle) describeOther(vehicleAt(load.with), load.contact, impulse, event);
     event.energyLost = share.energyLost;
     event.regime = Regime::sticking;
     for (const auto& [is, phase] :

@@ -66,14 +66,14 @@ double leanAsSeen(double wallLean, double tilt) {
 FreeSpace::FreeSpace(const VehicleBodies& bodies, const Envelope& envelope, double minUprightness)
     : envelope_(envelope),
       minUprightness_(minUprightness),
-      rotation_(dBodyGetRotation(bodies.chassis())),
+      rotation_(bodies.numbers().front().rotation),
       quaternion_(dBodyGetQuaternion(bodies.chassis())),
-      turning_(dBodyGetAngularVel(bodies.chassis())) {
-  for (dBodyID body : bodies.all()) {
-    bodies_.push_back({.position = dBodyGetPosition(body),
-                       .velocity = dBodyGetLinearVel(body),
-                       .force = dBodyGetForce(body),
-                       .torque = dBodyGetTorque(body)});
+      turning_(bodies.numbers().front().turning) {
+  for (const BodyNumbers& body : bodies.numbers()) {
+    bodies_.push_back({.position = body.position,
+                       .velocity = body.velocity,
+                       .force = body.force,
+                       .torque = body.torque});
   }
 }
 
@@ -150,8 +150,15 @@ bool FreeSpace::fits(const std::vector<std::unique_ptr<Barrier>>& barriers,
   const double speedNow = state.velocity.head<2>().norm();
   double ahead = std::clamp(timeAhead * speedNow, leastAhead, mostAhead);
   const double wanted = std::min(fewestSteps * h * speedNow, 0.5 * ahead);
+  // Most barriers are upright, or lean alike.
+  double known = 0.0;
+  double lean = bandHeight * leanAsSeen(known, tilt);
   for (const std::unique_ptr<Barrier>& barrier : barriers) {
-    const double lean = bandHeight * leanAsSeen(barrier->lean(), tilt);
+    if (barrier->frame().moves()) continue;
+    if (barrier->lean() != known) {
+      known = barrier->lean();
+      lean = bandHeight * leanAsSeen(known, tilt);
+    }
     const PlanStrip strip{.origin = state.massCentre.head<2>(),
                           .direction = along,
                           .start = -(rear + lean + leastBehind),

@@ -44,7 +44,7 @@ class FreeSpace {
   }
 
  private:
-  // What ODE keeps of a body. These addresses do not change while the body lives.
+  // A body's BodyNumbers.
   struct Body {
     const dReal* position;
     const dReal* velocity;
@@ -73,7 +73,7 @@ class FreeSpace {
 
   std::vector<Body> bodies_;
   const dReal* rotation_;
-  const dReal* quaternion_;
+  const dReal* quaternion_;  // ODE's own: only the angle between two counts
   const dReal* turning_;
 
   double step_ = 0.0;  // the longest step for which it holds, s; 0: nothing is known

@@ -100,10 +100,20 @@ void GuardContacts::attach(const Constraint& constraint, dJointGroupID group, dB
   contact.surface.soft_erp = 0.0;
   contact.surface.soft_cfm = constraintForceMixing;
   contact.surface.mu = constraint.friction >= leastFriction ? constraint.friction : 0.0;
-  contact.surface.motionN = constraint.leastSpeed - mostDither * dither(step.time, count_);
+  contact.surface.motionN =
+      frame_.metre() * (constraint.leastSpeed - mostDither * dither(step.time, count_));
+  const Eigen::Vector3d place = frame_.vectorInWorld(load.contact);
+  const Eigen::Vector3d normal = frame_.directionInWorld(load.normal);
   for (int k = 0; k < 3; ++k) {
-    contact.geom.pos[k] = load.contact[k];
-    contact.geom.normal[k] = load.normal[k];
+    contact.geom.pos[k] = place[k];
+    contact.geom.normal[k] = normal[k];
+  }
+  // The axes of friction, level and upright: what ODE takes where z is up.
+  if (!frame_.isUsual()) {
+    contact.surface.mode |= dContactFDir1;
+    const Eigen::Vector3d level =
+        frame_.directionInWorld(Eigen::Vector3d::UnitZ().cross(load.normal).normalized());
+    for (int k = 0; k < 3; ++k) contact.fdir1[k] = level[k];
   }
   const dJointID joint = dJointCreateContact(dBodyGetWorld(chassis), group, &contact);
   dJointAttach(joint, chassis, constraint.other);
@@ -113,7 +123,9 @@ void GuardContacts::attach(const Constraint& constraint, dJointGroupID group, dB
 }
 
 std::span<GuardLoad> GuardContacts::loads() {
-  for (std::size_t i = 0; i < count_; ++i) loads_[i].force = toVector(feedback_[i].f1);
+  for (std::size_t i = 0; i < count_; ++i) {
+    loads_[i].force = frame_.vector(toVector(feedback_[i].f1));
+  }
   return {loads_.data(), count_};
 }
 
@@ -121,7 +133,8 @@ void GuardContacts::setLoads(std::span<const GuardLoad> loads) {
   count_ = std::min(loads.size(), loads_.size());
   std::copy_n(loads.begin(), count_, loads_.begin());
   for (std::size_t i = 0; i < count_; ++i) {
-    for (int k = 0; k < 3; ++k) feedback_[i].f1[k] = loads_[i].force[k];
+    const Eigen::Vector3d force = frame_.vectorInWorld(loads_[i].force);
+    for (int k = 0; k < 3; ++k) feedback_[i].f1[k] = force[k];
     joints_[i] = nullptr;
   }
 }

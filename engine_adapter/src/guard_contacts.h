@@ -37,6 +37,9 @@ inline constexpr double slidingGap = 1e-3;
 /// from passing its wall within the step, under any load. Without load they have no effect.
 class GuardContacts {
  public:
+  /// The frame must live as long.
+  explicit GuardContacts(const WorldFrame& frame) : frame_(frame) {}
+
   struct Guard {
     SpeculativeContact contact;  ///< in the vehicle's axes
     BarrierId barrier;
@@ -85,6 +88,7 @@ class GuardContacts {
   };
   void attach(const Constraint& constraint, dJointGroupID group, dBodyID chassis, const Step& step);
 
+  const WorldFrame& frame_;
   std::array<GuardLoad, SpeculativeContacts::most> loads_{};
   std::array<dJointFeedback, SpeculativeContacts::most> feedback_{};
   std::array<dJointID, SpeculativeContacts::most> joints_{};

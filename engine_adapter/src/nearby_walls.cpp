@@ -53,23 +53,51 @@ void NearbyWalls::list(const Envelope& vehicle,
   surfaces_.clear();
   owners_.clear();
   for (const std::unique_ptr<Barrier>& barrier : barriers) {
-    if (!barrier->mayComeWithin(centre_, radius)) continue;
-    if (barrier->mesh() == nullptr) {
-      faces_.push_back({.barrier = barrier.get(),
-                        .centre = centre_,
-                        .radius = std::numeric_limits<double>::infinity(),
-                        .surface = surfaceNumber(*barrier, 0)});
-    } else {
-      listFaces(*barrier, query_.list(*barrier->mesh(), vehicle, state, margins_));
-      const FineWalls& fine = barrier->mesh()->fineWalls();
-      if (fine.isEmpty()) continue;
-      withFine_.push_back(barrier.get());
-      fine.forEachMesh([&](int wall) { surfaceNumber(*barrier, wall); });
+    if (barrier->frame().moves() || !barrier->mayComeWithin(centre_, radius)) continue;
+    listWalls(*barrier, vehicle, state, margins_);
+  }
+  standingFine_ = withFine_.size();
+  standingFaces_ = faces_.size();
+  standingSurfaces_ = surfaces_.size();
+  isKnown_ = true;
+}
+
+// Of those that move the walls within reach, as they are now.
+void NearbyWalls::listMoving(const Envelope& vehicle, std::span<Barrier* const> moving,
+                             const VehicleState& state, double reach) {
+  const double needed = reach + vehicle.bandHeight();
+  const WallQuery::Margins margins{
+      .front = needed, .rear = needed, .side = needed, .height = allAround};
+  for (const Barrier* barrier : moving) {
+    const VehicleState seen = barrier->frame().toFrame(state);
+    if (!barrier->mayComeWithin(seen.massCentre, vehicle.radius() + 2.0 * needed + allAround)) {
+      continue;
+    }
+    const std::size_t first = surfaces_.size();
+    listWalls(*barrier, vehicle, seen, margins);
+    const PlanarMotion motion = barrier->frame().inYawPlane(state);
+    for (std::size_t i = first; i < surfaces_.size(); ++i) {
+      surfaces_[i].moves = true;
+      surfaces_[i].motion = motion;
     }
   }
-  listedFaces_ = faces_.size();
-  listedSurfaces_ = surfaces_.size();
-  isKnown_ = true;
+}
+
+// The faces of a barrier's walls around a vehicle, which its frame sees so.
+void NearbyWalls::listWalls(const Barrier& barrier, const Envelope& vehicle,
+                            const VehicleState& state, const WallQuery::Margins& margins) {
+  if (barrier.mesh() != nullptr) {
+    listFaces(barrier, query_.list(*barrier.mesh(), vehicle, state, margins));
+    const FineWalls& fine = barrier.mesh()->fineWalls();
+    if (fine.isEmpty()) return;
+    withFine_.push_back(&barrier);
+    fine.forEachMesh([&](int wall) { surfaceNumber(barrier, wall); });
+    return;
+  }
+  faces_.push_back({.barrier = &barrier,
+                    .centre = state.massCentre,
+                    .radius = std::numeric_limits<double>::infinity(),
+                    .surface = surfaceNumber(barrier, 0)});
 }
 
 // The local number of a barrier wall's surface.
@@ -145,8 +173,10 @@ std::optional<Segment> NearbyWalls::pieceOf(const Near& near, const Envelope& ve
 void NearbyWalls::addFineWalls(const Envelope& vehicle, const VehicleState& state,
                                const PlanRectangle& within) {
   for (const Barrier* barrier : withFine_) {
+    const BarrierFrame& frame = barrier->frame();
+    const VehicleState seen = frame.moves() ? frame.toFrame(state) : state;
     const WallTable& table = barrier->mesh()->walls();
-    barrier->mesh()->fineWalls().find(vehicle, state, within, fine_);
+    barrier->mesh()->fineWalls().find(vehicle, seen, within, fine_);
     for (const FineWalls::Crowd& crowd : fine_) {
       Segment side;
       side.id = static_cast<int>(faces_.size());
@@ -165,19 +195,29 @@ void NearbyWalls::addFineWalls(const Envelope& vehicle, const VehicleState& stat
   }
 }
 
-void NearbyWalls::collect(const Envelope& vehicle,
-                          const std::vector<std::unique_ptr<Barrier>>& barriers,
+void NearbyWalls::collect(const Envelope& vehicle, const BarrierList& barriers,
                           const VehicleState& state, const Question& question) {
-  if (!covers(vehicle, state, question.reach)) list(vehicle, barriers, state, question.reach);
-  surfaces_.resize(listedSurfaces_);
-  owners_.resize(listedSurfaces_);
+  if (!covers(vehicle, state, question.reach)) list(vehicle, barriers.all, state, question.reach);
+  faces_.resize(standingFaces_);
+  withFine_.resize(standingFine_);
+  surfaces_.resize(standingSurfaces_);
+  owners_.resize(standingSurfaces_);
+  if (!barriers.moving.empty()) listMoving(vehicle, barriers.moving, state, question.reach);
+  listedSurfaces_ = surfaces_.size();
   segments_.clear();
-  faces_.resize(listedFaces_);
+  listedFaces_ = faces_.size();
   const PlanRectangle within = vehicle.outline().enlarged(question.reach);
   if (!withFine_.empty()) addFineWalls(vehicle, state, within);
+  VehicleState fromMoving;
+  const auto seenFrom = [&](const Near& near) -> const VehicleState& {
+    const BarrierFrame& frame = near.barrier->frame();
+    if (!frame.moves()) return state;
+    fromMoving = frame.toFrame(state);
+    return fromMoving;
+  };
   if (segments_.empty() && !question.evenIfNoneIsThere && !wasThere_) {
     const auto mayBeThere = [&](const Near& each) {
-      return mayMeet(each, vehicle, state, question.around);
+      return mayMeet(each, vehicle, seenFrom(each), question.around);
     };
     if (std::none_of(faces_.begin(), faces_.end(), mayBeThere)) return;
   }
@@ -188,8 +228,9 @@ void NearbyWalls::collect(const Envelope& vehicle,
   wasThere_ = std::any_of(segments_.begin(), segments_.end(),
                           [&](const Segment& piece) { return meets(question.around, piece); });
   for (std::size_t i = 0; i < listedFaces_; ++i) {
-    if (!mayMeet(faces_[i], vehicle, state, within)) continue;
-    const std::optional<Segment> piece = pieceOf(faces_[i], vehicle, state, question.reach);
+    const VehicleState& seen = seenFrom(faces_[i]);
+    if (!mayMeet(faces_[i], vehicle, seen, within)) continue;
+    const std::optional<Segment> piece = pieceOf(faces_[i], vehicle, seen, question.reach);
     if (!piece || !meets(within, *piece)) continue;
     wasThere_ = wasThere_ || meets(question.around, *piece);
     segments_.push_back(*piece);

@@ -25,6 +25,12 @@ struct BarrierWall {
   int wall = 0;
 };
 
+/// A responder's barriers, and those of them that move.
+struct BarrierList {
+  const std::vector<std::unique_ptr<Barrier>>& all;
+  std::span<Barrier* const> moving;
+};
+
 /// The walls around one vehicle: ODE's collider lists them for a region, and the list is valid
 /// until the vehicle may reach out of it.
 class NearbyWalls {
@@ -46,8 +52,8 @@ class NearbyWalls {
   /// Finds all pieces of walls within the reach of the vehicle in that state, in the order of
   /// barriers and walls; none if no wall is in the rectangle, unless they are wanted even then. A
   /// segment's id is its face's number here, and its surface one of a barrier's settings.
-  void collect(const Envelope& vehicle, const std::vector<std::unique_ptr<Barrier>>& barriers,
-               const VehicleState& state, const Question& question);
+  void collect(const Envelope& vehicle, const BarrierList& barriers, const VehicleState& state,
+               const Question& question);
 
   /// As if collect() had found nothing.
   void clear() { segments_.clear(); }
@@ -94,6 +100,8 @@ class NearbyWalls {
     int surface = 0;
   };
 
+  void listMoving(const Envelope& vehicle, std::span<Barrier* const> moving,
+                  const VehicleState& state, double reach);
   [[nodiscard]] bool covers(const Envelope& vehicle, const VehicleState& state, double reach) const;
   [[nodiscard]] static bool mayMeet(const Near& near, const Envelope& vehicle,
                                     const VehicleState& state, const PlanRectangle& around);
@@ -103,6 +111,8 @@ class NearbyWalls {
             const VehicleState& state, double reach);
   void addFineWalls(const Envelope& vehicle, const VehicleState& state,
                     const PlanRectangle& within);
+  void listWalls(const Barrier& barrier, const Envelope& vehicle, const VehicleState& state,
+                 const WallQuery::Margins& margins);
   void listFaces(const Barrier& barrier, std::span<const int> walls);
   int surfaceNumber(const Barrier& barrier, int wall);
 
@@ -111,12 +121,17 @@ class NearbyWalls {
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();    // the region: the vehicle's place,
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  // its axes, and
   WallQuery::Margins margins_;                          // how far it reaches beyond the envelope
+  // Those that stand still come first, and are known until the vehicle leaves the region; then come
+  // those that move, of this step.
   std::vector<Near> faces_;
   std::size_t listedFaces_ = 0;  // the first of them; then one for each crowd of fine walls
   std::vector<const Barrier*> withFine_;  // barriers that may be near
   std::vector<FineWalls::Crowd> fine_;
   std::vector<Surface> surfaces_;
-  std::vector<Owner> owners_;       // of the surfaces
+  std::vector<Owner> owners_;  // of the surfaces
+  std::size_t standingFaces_ = 0;
+  std::size_t standingFine_ = 0;
+  std::size_t standingSurfaces_ = 0;
   std::size_t listedSurfaces_ = 0;  // the first of both; what comes after is entered
   std::vector<Segment> segments_;
   CrowdedWalls crowds_;
@@ -141,8 +156,10 @@ void NearbyWalls::enter(const IsOfIt& isOfIt, double depth) {
     if (entered == surfaces_.size()) {
       const Owner owner = owners_[number];
       owners_.push_back(owner);
-      surfaces_.push_back(
-          {.settings = surfaces_[number].settings, .entered = true, .depth = depth});
+      Surface surface = surfaces_[number];
+      surface.entered = true;
+      surface.depth = depth;
+      surfaces_.push_back(surface);
     }
     segment.surface = static_cast<int>(entered);
   }

@@ -6,11 +6,15 @@
 #include <string>
 
 #include "bumper/response/error.h"
+#include "geom_class.h"
 #include "ode_vectors.h"
 
 namespace bumper {
 
 namespace {
+
+// Of a round end's radius, the part where it is steeper than 45°.
+constexpr double steepShare = 0.7071067811865476;
 
 void requireFinite(bool isFinite, const char* what) {
   if (isFinite) return;
@@ -19,12 +23,12 @@ void requireFinite(bool isFinite, const char* what) {
 
 }  // namespace
 
-PrimitiveWall::PrimitiveWall(dGeomID geom, double maxNormalUp) {
+PrimitiveWall::PrimitiveWall(dGeomID geom, const WorldFrame& frame, double maxNormalUp) {
   if (dGeomGetClass(geom) == dPlaneClass) {
     dVector4 plane;
     dGeomPlaneGetParams(geom, plane);
-    direction_ = toVector(plane);
-    place_ = plane[3] * direction_;
+    direction_ = frame.direction(toVector(plane));
+    place_ = plane[3] / frame.metre() * direction_;
     requireFinite(direction_.allFinite() && place_.allFinite(), "plane");
     if (std::abs(direction_.z()) > maxNormalUp) {
       throw Error("addBarrier: the plane is flatter than WallSelection::maxNormalUp allows");
@@ -33,21 +37,50 @@ PrimitiveWall::PrimitiveWall(dGeomID geom, double maxNormalUp) {
     top_ = std::numeric_limits<double>::infinity();
     return;
   }
+  const int kind = dGeomGetClass(geom);
+  const std::string name = classNameOf(geom);
   dReal radius = 0.0;
   dReal length = 0.0;
-  dGeomCylinderGetParams(geom, &radius, &length);
-  place_ = toVector(dGeomGetPosition(geom));
-  direction_ = toMatrix(dGeomGetRotation(geom)).col(2);
+  if (kind == dCylinderClass) dGeomCylinderGetParams(geom, &radius, &length);
+  if (kind == dCapsuleClass) dGeomCapsuleGetParams(geom, &radius, &length);
+  if (kind == dSphereClass) radius = dGeomSphereGetRadius(geom);
+  isRound_ = kind != dCylinderClass;
+  radius /= frame.metre();
+  length /= frame.metre();
+  place_ = frame.vector(toVector(dGeomGetPosition(geom)));
+  direction_ = kind == dSphereClass ? Eigen::Vector3d(Eigen::Vector3d::UnitZ())
+                                    : frame.direction(toMatrix(dGeomGetRotation(geom)).col(2));
   if (direction_.z() < 0.0) direction_ = -direction_;
   radius_ = radius;
+  halfLength_ = 0.5 * length;
   requireFinite(place_.allFinite() && direction_.allFinite() && std::isfinite(radius) &&
                     std::isfinite(length),
-                "cylinder");
+                name.c_str() + name.find(' ') + 1);
+  if (!(radius_ > 0.0)) throw Error("addBarrier: the geom is " + name + " without a radius");
   if (direction_.head<2>().norm() > maxNormalUp) {
-    throw Error("addBarrier: the cylinder leans further than WallSelection::maxNormalUp allows");
+    throw Error("addBarrier: the geom is " + name +
+                " that leans further than WallSelection::maxNormalUp allows");
   }
-  foot_ = place_.z() - 0.5 * length * direction_.z();
-  top_ = place_.z() + 0.5 * length * direction_.z();
+  const double half = halfLength_ * direction_.z() + (isRound_ ? steepShare * radius_ : 0.0);
+  foot_ = place_.z() - half;
+  top_ = place_.z() + half;
+}
+
+std::optional<PrimitiveWall::Section> PrimitiveWall::sectionOf(const Eigen::Vector3d& place,
+                                                               const Eigen::Vector3d& direction,
+                                                               double low, double high) const {
+  if (!isRound_) {
+    return Section{.centre = (place - place.z() / direction.z() * direction).head<2>(),
+                   .radius = radius_};
+  }
+  // The axis between the centres of the ends, and the height on it next to the band, which is the
+  // mass centre's if that is on it.
+  const double half = halfLength_ * direction.z();
+  const double onAxis = std::clamp(std::clamp(0.0, low, high), place.z() - half, place.z() + half);
+  const double beyond = std::abs(std::clamp(onAxis, low, high) - onAxis);
+  if (beyond > steepShare * radius_) return std::nullopt;
+  return Section{.centre = (place + (onAxis - place.z()) / direction.z() * direction).head<2>(),
+                 .radius = beyond > 0.0 ? std::sqrt(radius_ * radius_ - beyond * beyond) : radius_};
 }
 
 std::optional<Segment> PrimitiveWall::cut(const VehicleState& state, const Envelope& vehicle,
@@ -62,10 +95,10 @@ std::optional<Segment> PrimitiveWall::cut(const VehicleState& state, const Envel
     const double footHeight = place.z() + (foot_ - place_.z()) * state.up().z();
     const double topHeight = place.z() + (top_ - place_.z()) * state.up().z();
     if (topHeight < low || footHeight > high) return std::nullopt;
-    const Vector2 centre = (place - place.z() / direction.z() * direction).head<2>();
-    if (centre.norm() > reach + radius_) return std::nullopt;
-    wall.start = wall.end = centre;
-    wall.radius = radius_;
+    const std::optional<Section> section = sectionOf(place, direction, low, high);
+    if (!section || section->centre.norm() > reach + section->radius) return std::nullopt;
+    wall.start = wall.end = section->centre;
+    wall.radius = section->radius;
     return wall;
   }
   const double planar = direction.head<2>().norm();

@@ -5,8 +5,6 @@
 
 #include <cmath>
 
-#include "ode_vectors.h"
-
 namespace bumper {
 
 namespace {
@@ -28,8 +26,8 @@ PlanarForce over(const PlanarImpulse& impulse, double h) {
 LastStep lookBack(const LastDelivery& delivery, const VehicleBodies& bodies,
                   const WorldSteps& steps) {
   if (!delivery.any) return LastStep::as_expected;
-  const Eigen::Vector3d position = toVector(dBodyGetPosition(bodies.chassis()));
-  const Eigen::Vector3d velocity = toVector(dBodyGetLinearVel(bodies.chassis()));
+  const Eigen::Vector3d position = bodies.position();
+  const Eigen::Vector3d velocity = bodies.velocity();
   if (!(steps.total > 0.0)) {
     const bool isSame = position == delivery.position && velocity == delivery.velocity;
     return isSame ? LastStep::not_taken : LastStep::moved_since;
@@ -53,7 +51,6 @@ LastStep lookBack(const LastDelivery& delivery, const VehicleBodies& bodies,
 
 void deliver(const VehicleBodies& bodies, const VehicleState& state, const PlanarImpulse& impulse,
              double h, Delivery how, LastDelivery& delivery) {
-  dBodyID chassis = bodies.chassis();
   if (!impulse.linear.isZero(0.0) || impulse.angular != 0.0) {
     if (how == Delivery::force_pulse) {
       bodies.push(state, over(impulse, h));
@@ -64,9 +61,9 @@ void deliver(const VehicleBodies& bodies, const VehicleState& state, const Plana
   delivery.any = true;
   delivery.step = h;
   delivery.impulse = impulse;
-  delivery.position = toVector(dBodyGetPosition(chassis));
-  delivery.velocity = toVector(dBodyGetLinearVel(chassis));
-  delivery.axes = toMatrix(dBodyGetRotation(chassis));
+  delivery.position = bodies.position();
+  delivery.velocity = bodies.velocity();
+  delivery.axes = bodies.axes();
 }
 
 void takeBack(const VehicleBodies& bodies, Delivery how, const LastDelivery& delivery) {

@@ -32,14 +32,15 @@ struct Vehicle {
         mover(itsMover),
         minUprightness(std::cos(tiltLimit)),
         envelope(itsParameters, band),
-        freeSpace(bodies, envelope, minUprightness) {
+        freeSpace(bodies, envelope, minUprightness),
+        guards(bodies.frame()) {
     traveller.vehicle = this;
-    const dBodyID chassis = bodies.chassis();
-    traveller.position = dBodyGetPosition(chassis);
-    traveller.rotation = dBodyGetRotation(chassis);
-    traveller.velocity = dBodyGetLinearVel(chassis);
-    traveller.turning = dBodyGetAngularVel(chassis);
-    traveller.force = dBodyGetForce(chassis);
+    const BodyNumbers& chassis = bodies.numbers().front();
+    traveller.position = chassis.position;
+    traveller.rotation = chassis.rotation;
+    traveller.velocity = chassis.velocity;
+    traveller.turning = chassis.turning;
+    traveller.force = chassis.force;
     traveller.forceAllowed = Traffic::accelerationAllowed * itsParameters.mass;
     const VehiclePose pose = bodies.readPose();
     const dReal* at = traveller.position;
@@ -91,12 +92,14 @@ struct Vehicle {
   bool isAlone = true;      ///< certainly away from all other vehicles
   bool isActive = false;    ///< … not both
   bool hasCompany = false;  ///< another vehicle may meet it
-  bool isHit = false;       ///< by another vehicle
-  int island = -1;          ///< its number; −1: none
-  int islandPlace = -1;     ///< its place among the island's members
+  /// No barrier that moves and may meet it is faster, m/s; negative: none may.
+  double barrierSpeed = -1.0;
+  bool isHit = false;    ///< by another vehicle
+  int island = -1;       ///< its number; −1: none
+  int islandPlace = -1;  ///< its place among the island's members
 
   /// False also where the rotation is not finite.
-  [[nodiscard]] bool isUpright() const { return uprightness(bodies.chassis()) >= minUprightness; }
+  [[nodiscard]] bool isUpright() const { return bodies.uprightness() >= minUprightness; }
 
   /// By its yaw rate no point of the outline moves faster about the mass centre, m/s.
   [[nodiscard]] double turningSpeed() const {

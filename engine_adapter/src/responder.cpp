@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "bumper/response/error.h"
 #include "responder_implementation.h"
@@ -30,6 +31,17 @@ template <typename Thing>
 void erase(std::vector<std::unique_ptr<Thing>>& things, const Thing& thing) {
   things.erase(std::find_if(things.begin(), things.end(),
                             [&](const auto& each) { return each.get() == &thing; }));
+}
+
+// In metres, of parameters in a world's unit.
+VehicleParameters inMetres(const VehicleParameters& given, double metre) {
+  VehicleParameters own = given;
+  own.yawInertia /= metre * metre;
+  for (double* length :
+       {&own.massCentreToFront, &own.massCentreToRear, &own.width, &own.massCentreHeight}) {
+    *length /= metre;
+  }
+  return own;
 }
 
 void requireClose(double actual, double given, double tolerance, const char* what,
@@ -78,14 +90,23 @@ template <typename... Source>
 std::unique_ptr<Barrier> makeBarrier(const Responder::Implementation& responder, BarrierId id,
                                      const BarrierOptions& options, std::string name,
                                      const Source&... source) {
-  return std::make_unique<Barrier>(id, source..., options, std::move(name),
+  return std::make_unique<Barrier>(id, source..., responder.worldFrame, options, std::move(name),
                                    responder.options.response);
+}
+
+// A scene of the application's, in metres with z up.
+template <typename Use>
+auto withScene(const Responder::Implementation& responder, const Scene& scene, const Use& use) {
+  if (responder.worldFrame.isUsual()) return use(scene);
+  return use(responder.worldFrame.scene(scene));
 }
 
 // After barriers have changed.
 void lookAround(Responder::Implementation& responder) noexcept {
   responder.longestPenetrationTime = 0.0;
+  responder.movingBarriers.clear();
   for (const std::unique_ptr<Barrier>& barrier : responder.barriers) {
+    if (barrier->frame().moves()) responder.movingBarriers.push_back(barrier.get());
     responder.longestPenetrationTime =
         std::max(responder.longestPenetrationTime, barrier->longestPenetrationTime());
   }
@@ -96,15 +117,13 @@ void lookAround(Responder::Implementation& responder) noexcept {
 template <typename... Source>
 BarrierId add(Responder::Implementation& responder, const BarrierOptions& options, std::string name,
               const Source&... source) {
-  if (options.response) validateSettings(*options.response, responder.options);
-  for (const auto& [material, settings] : options.materials) {
-    validateSettings(settings, responder.options);
-  }
+  responder.requireValid(options);
   const BarrierId id{responder.nextBarrier};
   if (name.empty()) name = "barrier " + std::to_string(id.value);
   auto barrier = makeBarrier(responder, id, options, std::move(name), source...);
   std::optional<std::string> warning = warningOf(*barrier);
   makeRoom(responder.barriers, 1);
+  responder.movingBarriers.reserve(responder.barriers.size() + 1);
   responder.warnings.makeRoom(1);
   responder.barrierOfGeom.insert_or_assign(barrier->geom(), barrier.get());
 
@@ -128,6 +147,8 @@ template <typename... Source>
 void update(Responder::Implementation& responder, const Barrier& old, const BarrierOptions& options,
             const Source&... source) {
   std::unique_ptr<Barrier> fresh = makeBarrier(responder, old.id(), options, old.name(), source...);
+  fresh->frame().takeOver(old.frame());
+  fresh->frame().follow(fresh->geom(), responder.time, responder.lastStep);
   std::optional<std::string> warning = warningOf(*fresh);
   responder.warnings.makeRoom(1);
   responder.barrierOfGeom.insert_or_assign(fresh->geom(), fresh.get());
@@ -152,17 +173,35 @@ void update(Responder::Implementation& responder, const Barrier& old, const Barr
   lookAround(responder);
 }
 
-void requireStanding(dGeomID geom, const char* call) {
-  if (dGeomGetBody(geom) != nullptr) {
-    throw Error(std::string(call) + ": the geom has a body: a barrier must stand still");
-  }
+void requireExisting(const Barrier& barrier) {
+  const LentGeom* lent = barrier.mesh() != nullptr ? barrier.mesh()->lentGeom() : nullptr;
+  if (lent == nullptr || lent->exists()) return;
+  throw Error("updateBarrier: the geom of barrier '" + barrier.name() +
+              "' was destroyed: remove the barrier and add it anew");
+}
+
+// A vehicle's geom is none of a barrier.
+void requireNoVehicle(const Responder::Implementation& responder, dGeomID geom, const char* call) {
+  const auto owner = responder.vehicleOfBody.find(dGeomGetBody(geom));
+  if (owner == responder.vehicleOfBody.end()) return;
+  throw Error(std::string(call) + ": the geom has a body of vehicle '" + owner->second->name + "'");
+}
+
+// The barrier's geom was moved, with or without a velocity, and nothing else: whether it was.
+bool follow(Responder::Implementation& responder, Barrier& barrier) {
+  requireNoVehicle(responder, barrier.geom(), "updateBarrier");
+  if (!barrier.hasSameShape()) return false;
+  const bool moved = barrier.frame().moves();
+  barrier.frame().follow(barrier.geom(), responder.time, responder.lastStep);
+  if (barrier.frame().moves() != moved) lookAround(responder);
+  return barrier.frame().moves();
 }
 
 // Whether a geom of the application's can become a barrier.
 void requireUsable(const Responder::Implementation& responder, dGeomID geom) {
   if (geom == nullptr) throw Error("addBarrier: the geom is null");
   if (dGeomIsSpace(geom) != 0) throw Error("addBarrier: the geom is a space");
-  requireStanding(geom, "addBarrier");
+  requireNoVehicle(responder, geom, "addBarrier");
   const auto known = responder.barrierOfGeom.find(geom);
   if (known != responder.barrierOfGeom.end() && known->second->isStill(geom)) {
     throw Error("addBarrier: the geom is a barrier already");
@@ -170,6 +209,11 @@ void requireUsable(const Responder::Implementation& responder, dGeomID geom) {
 }
 
 }  // namespace
+
+void Responder::Implementation::requireValid(const BarrierOptions& given) const {
+  if (given.response) validateSettings(*given.response, options);
+  for (const auto& [material, settings] : given.materials) validateSettings(settings, options);
+}
 
 Responder::Responder(dWorldID world, const ResponderOptions& options) {
   if (world == nullptr) throw Error("Responder: the world is null");
@@ -181,6 +225,7 @@ Responder::Responder(dWorldID world, const ResponderOptions& options) {
   implementation_ = std::make_unique<Implementation>();
   implementation_->world = world;
   implementation_->options = options;
+  implementation_->worldFrame = WorldFrame(options.axes);
 }
 
 Responder::~Responder() = default;
@@ -189,12 +234,17 @@ Responder& Responder::operator=(Responder&&) noexcept = default;
 
 BarrierId Responder::addBarrier(const Scene& scene, const BarrierOptions& options) {
   std::string name = options.name.empty() ? scene.name : options.name;
-  if (options.geom == nullptr) return add(*implementation_, options, std::move(name), scene);
-  requireUsable(*implementation_, options.geom);
-  if (dGeomGetClass(options.geom) == dTriMeshClass) {
-    throw Error("addBarrier: BarrierOptions::geom is a trimesh: add it as it is");
+  if (options.geom != nullptr) {
+    requireUsable(*implementation_, options.geom);
+    if (dGeomGetClass(options.geom) == dTriMeshClass) {
+      throw Error("addBarrier: BarrierOptions::geom is a trimesh: add it as it is");
+    }
   }
-  return add(*implementation_, options, std::move(name), options.geom, scene);
+  return withScene(*implementation_, scene, [&](const Scene& own) {
+    return options.geom == nullptr
+               ? add(*implementation_, options, std::move(name), own)
+               : add(*implementation_, options, std::move(name), options.geom, own);
+  });
 }
 
 BarrierId Responder::addBarrier(dGeomID geom, const BarrierOptions& options) {
@@ -206,13 +256,41 @@ BarrierId Responder::addBarrier(dGeomID geom, const BarrierOptions& options) {
 }
 
 void Responder::updateBarrier(BarrierId barrier) {
-  const Barrier& old = registered(implementation_->barriers, barrier.value, "barrier");
+  Implementation& self = *implementation_;
+  Barrier& old = registered(self.barriers, barrier.value, "barrier");
+  requireExisting(old);
+  if (follow(self, old)) return;
   if (old.hasScene()) {
     throw Error("updateBarrier: the walls of barrier '" + old.name() +
-                "' came from a scene: give the scene as it is now");
+                "' came from a scene, and its geom was not moved: give the scene as it is now");
   }
-  requireStanding(old.geom(), "updateBarrier");
-  update(*implementation_, old, old.options(), old.geom());
+  update(self, old, old.options(), old.geom());
+}
+
+void Responder::updateBarrier(BarrierId barrier, const BarrierVelocity& velocity) {
+  Implementation& self = *implementation_;
+  Barrier& moved = registered(self.barriers, barrier.value, "barrier");
+  requireExisting(moved);
+  if (!velocity.linear.allFinite() || !velocity.angular.allFinite()) {
+    throw Error("updateBarrier: the velocity of barrier '" + moved.name() + "' is not finite");
+  }
+  if (moved.frame().body() != nullptr || dGeomGetBody(moved.geom()) != nullptr) {
+    throw Error("updateBarrier: barrier '" + moved.name() +
+                "' has a body: set the velocity of that");
+  }
+  if (moved.primitive() != nullptr && !moved.primitive()->isPost()) {
+    throw Error("updateBarrier: barrier '" + moved.name() + "' is a plane, and planes do not move");
+  }
+  if (!moved.hasSameShape()) {
+    if (moved.hasScene()) {
+      throw Error("updateBarrier: the geom of barrier '" + moved.name() + "' has another shape");
+    }
+    update(self, moved, moved.options(), moved.geom());
+  }
+  Barrier& now = *find(self.barriers, barrier.value);
+  now.frame().follow(now.geom(), self.time, self.lastStep);
+  now.frame().setVelocity(velocity, self.time);
+  lookAround(self);
 }
 
 void Responder::updateBarrier(BarrierId barrier, const Scene& scene) {
@@ -223,18 +301,18 @@ void Responder::updateBarrier(BarrierId barrier, const Scene& scene) {
   }
   const LentGeom* lent = old.mesh()->lentGeom();
   if (lent == nullptr) {
-    requireStanding(old.geom(), "updateBarrier");
-    update(*implementation_, old, old.options(), old.geom(), scene);
+    requireNoVehicle(*implementation_, old.geom(), "updateBarrier");
+    withScene(*implementation_, scene, [&](const Scene& own) {
+      update(*implementation_, old, old.options(), old.geom(), own);
+    });
     return;
   }
-  if (!lent->exists()) {
-    throw Error("updateBarrier: the geom of barrier '" + old.name() +
-                "' was destroyed: remove the barrier and add it anew");
-  }
+  requireExisting(old);
   BarrierOptions options = old.options();
   // Its original space may be destroyed by now, and the geom in another.
   if (options.space != nullptr) options.space = dGeomGetSpace(lent->address());
-  update(*implementation_, old, options, scene);
+  withScene(*implementation_, scene,
+            [&](const Scene& own) { update(*implementation_, old, options, own); });
 }
 
 dGeomID Responder::geom(BarrierId barrier) const {
@@ -247,10 +325,11 @@ const WallReport& Responder::report(BarrierId barrier) const {
   return registered(implementation_->barriers, barrier.value, "barrier").report();
 }
 
-VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parameters,
+VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& given,
                                 const VehicleOptions& options) {
-  validate(parameters);
+  validate(given);
   Implementation& self = *implementation_;
+  const VehicleParameters parameters = inMetres(given, self.worldFrame.metre());
   std::vector<dBodyID> bodies{chassis};
   bodies.insert(bodies.end(), options.linkedBodies.begin(), options.linkedBodies.end());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -273,14 +352,17 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
                 " rad: it must lie between 0 and π/2");
   }
   const bool asPaper = self.options.response.method == Method::paper;
-  const Band band =
-      options.band.value_or(asPaper ? plateBand(parameters) : defaultBand(parameters));
+  Band band = asPaper ? plateBand(parameters) : defaultBand(parameters);
+  if (options.band) {
+    band = {.bottom = options.band->bottom / self.worldFrame.metre(),
+            .top = options.band->top / self.worldFrame.metre()};
+  }
   if (!(std::isfinite(band.bottom) && std::isfinite(band.top) && band.bottom < band.top)) {
     throw Error("addVehicle: the band reaches from " + std::to_string(band.bottom) + " m to " +
                 std::to_string(band.top) + " m: the bottom must lie below the top");
   }
 
-  const VehicleBodies vehicleBodies(bodies);
+  VehicleBodies vehicleBodies(bodies, self.worldFrame, turnOf(options.axes));
   const VehicleState state = vehicleBodies.read();
   if (options.mover == Mover::world) {
     requireClose(state.mass, parameters.mass, massTolerance, "mass", "kg");
@@ -291,10 +373,10 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
   const int id = self.nextVehicle;
   const std::string name =
       options.name.empty() ? "vehicle " + std::to_string(id) : std::string(options.name);
-  auto vehicle = std::make_unique<Vehicle>(VehicleId{id}, parameters, band, options.tiltLimit, name,
-                                           vehicleBodies, options.mover);
   std::vector<std::string> warnings = warningsOf(vehicleBodies, parameters, band, name);
-  std::optional<std::string> warningOfWorld = warningOf(self.world);
+  std::optional<std::string> warningOfWorld = warningOf(self.world, self.worldFrame);
+  auto vehicle = std::make_unique<Vehicle>(VehicleId{id}, parameters, band, options.tiltLimit, name,
+                                           std::move(vehicleBodies), options.mover);
   self.warnings.makeRoom(warnings.size() + 1);
   makeRoom(self.vehicles, 1);
   // So that step() need not allocate when the first vehicle hits the first wall.
@@ -316,6 +398,7 @@ VehicleId Responder::addVehicle(dBodyID chassis, const VehicleParameters& parame
   if (options.finiteRotation) {
     for (dBodyID body : bodies) dBodySetFiniteRotationMode(body, 1);
   }
+  self.anyCopied = self.anyCopied || vehicle->bodies.areCopied();
   self.vehicles.push_back(std::move(vehicle));
   ++self.nextVehicle;
   if (!self.clock) self.clock.emplace(self.world);
@@ -378,15 +461,13 @@ void Responder::removeVehicle(VehicleId vehicle) {
 }
 
 Eigen::Vector3d Responder::position(VehicleId vehicle) const {
-  return registered(implementation_->vehicles, vehicle.value, "vehicle")
-      .bodies.readPose()
-      .massCentre;
+  const Vehicle& self = registered(implementation_->vehicles, vehicle.value, "vehicle");
+  return implementation_->worldFrame.vectorInWorld(self.bodies.readPose().massCentre);
 }
 
 Eigen::Quaterniond Responder::orientation(VehicleId vehicle) const {
-  const Vehicle& self = registered(implementation_->vehicles, vehicle.value, "vehicle");
-  const dReal* q = dBodyGetQuaternion(self.bodies.chassis());
-  return {q[0], q[1], q[2], q[3]};
+  return registered(implementation_->vehicles, vehicle.value, "vehicle")
+      .bodies.orientationInWorld();
 }
 
 Eigen::Vector3d Responder::velocity(VehicleId vehicle) const {
@@ -394,7 +475,7 @@ Eigen::Vector3d Responder::velocity(VehicleId vehicle) const {
   const VehicleState state = self.bodies.read();
   const Eigen::Vector3d pending =
       self.memory.delivery.axes.leftCols<2>() * self.memory.pulse.pending().linear;
-  return state.velocity + pending / state.mass;
+  return implementation_->worldFrame.vectorInWorld(state.velocity + pending / state.mass);
 }
 
 double Responder::yawRate(VehicleId vehicle) const {
@@ -410,6 +491,10 @@ SavedState Responder::save() const {
     saved.vehicles.push_back(vehicle->memory);
     const std::span<const GuardLoad> loads = vehicle->guards.loads();
     saved.vehicles.back().guards.assign(loads.begin(), loads.end());
+  }
+  for (const Barrier* barrier : implementation_->movingBarriers) {
+    saved.barriers.push_back(barrier->frame().motion());
+    saved.barriers.back().barrier = barrier->id();
   }
   return saved;
 }
@@ -457,6 +542,14 @@ void Responder::restore(const SavedState& state) {
       }
     }
   }
+  for (const BarrierMotion& motion : state.barriers) {
+    const Barrier& barrier = registered(self.barriers, motion.barrier.value, "barrier");
+    if (motion.position.allFinite() && motion.axes.allFinite() && motion.velocity.allFinite() &&
+        motion.turning.allFinite()) {
+      continue;
+    }
+    throw Error("restore: the motion of barrier '" + barrier.name() + "' is not finite");
+  }
   // Copies first, which may fail; a step takes them as it takes those of a new vehicle.
   std::vector<std::array<VehicleMemory, 2>> copies(state.vehicles.size());
   for (std::size_t i = 0; i < copies.size(); ++i) {
@@ -476,7 +569,10 @@ void Responder::restore(const SavedState& state) {
   if (self.clock) self.clock->stop();
   dJointGroupEmpty(self.guardJoints.get());
   self.hasGuards = false;
-  self.forgetSurroundings();
+  for (const BarrierMotion& motion : state.barriers) {
+    find(self.barriers, motion.barrier.value)->frame().restore(motion);
+  }
+  lookAround(self);
   self.time = state.time;
 }
 

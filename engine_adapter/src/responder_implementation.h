@@ -17,9 +17,11 @@
 #include "bumper/response/island_step.h"
 #include "ode_handles.h"
 #include "registered_vehicle.h"
+#include "space_barriers.h"
 #include "traffic.h"
 #include "warnings.h"
 #include "world_clock.h"
+#include "world_frame.h"
 
 namespace bumper {
 
@@ -44,13 +46,17 @@ struct Meeting {
   bool isIn = false;  ///< it belongs to an island
 };
 
-struct Responder::Implementation {
+struct BUMPER_HIDDEN Responder::Implementation {
   dWorldID world = nullptr;
   ResponderOptions options;
+  WorldFrame worldFrame;
+  bool anyCopied = false;  // a vehicle's numbers are not ODE's own
 
   // In the order of their ids. These are given once, so that none ever means another thing.
   std::vector<std::unique_ptr<Barrier>> barriers;
   std::vector<std::unique_ptr<Vehicle>> vehicles;
+  std::vector<std::unique_ptr<BarrierSpace>> spaces;
+  std::vector<Barrier*> movingBarriers;  // a place for every barrier
   int nextBarrier = 0;
   int nextVehicle = 0;
   std::unordered_map<dGeomID, const Barrier*> barrierOfGeom;
@@ -84,6 +90,9 @@ struct Responder::Implementation {
   std::vector<const Meeting*> islandMeetings;
   std::vector<StepOutcome> islandOutcomes;
 
+  /// Throws Error if a barrier's settings are invalid.
+  void requireValid(const BarrierOptions& given) const;
+
   /// Invalidates the known surroundings of vehicles.
   void forgetSurroundings();
 
@@ -94,17 +103,24 @@ struct Responder::Implementation {
            (options.vehiclesCollide || !pairOptions.empty());
   }
 
+  /// Of the bodies' numbers.
+  void refreshCopies() const;
   /// The step of those vehicles that are not certainly away from all walls and other vehicles.
   void stepAll(std::span<Vehicle* const> some, double h);
   /// Corrects deliveries that the world's last step did not carry out as expected.
   void checkLastStep(std::span<Vehicle* const> some);
   void read(Vehicle& vehicle, double h);
+  void readMovingBarriers();
+  /// Whether a barrier that moves may meet it in the step, or is near enough to be guarded.
+  [[nodiscard]] bool mayMeetMovingBarrier(Vehicle& vehicle, double h) const;
   void collectWalls(Vehicle& vehicle, double h);
   void solve(Vehicle& vehicle, double h);
   void applyOutcome(Vehicle& vehicle, const StepOutcome& outcome, double h);
   /// Within this distance, m, a wall's contacts are guarded in a step.
   [[nodiscard]] static double guardedDistance(const Vehicle& vehicle, double h);
   void addGuards(Vehicle& vehicle, std::span<const SpeculativeContact> contacts, double h);
+  static void pushBack(const Barrier& barrier, const Vehicle& vehicle, const StepImpact& each,
+                       double h);
 
   /// Null: they do not respond to each other.
   [[nodiscard]] const ResponseSettings* settingsOfPair(const Vehicle& a, const Vehicle& b) const;

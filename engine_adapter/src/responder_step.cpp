@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "expectation.h"
 #include "ode_vectors.h"
@@ -33,15 +34,23 @@ PlanarMotion motionOf(const Vehicle& vehicle, Method method, double h) {
   return motion;
 }
 
-double gravityOf(dWorldID world) {
+double gravityOf(dWorldID world, const WorldFrame& frame) {
   dVector3 gravity;
   dWorldGetGravity(world, gravity);
-  return toVector(gravity).norm();
+  return frame.vector(toVector(gravity)).norm();
 }
 
 // Where the vehicle's forward axis points now in the yaw plane that it had before, unit.
 Vector2 aheadSince(const Eigen::Matrix3d& before, const Eigen::Matrix3d& now) {
   return (before.transpose() * now.col(0)).head<2>().normalized();
+}
+
+// They come vehicle by vehicle, those of pairs last. What was in order stays so.
+void sortByTime(std::vector<ImpactEvent>& events) {
+  const auto isBefore = [](double time, const ImpactEvent& event) { return time < event.time; };
+  for (auto next = events.begin(); next != events.end(); ++next) {
+    std::rotate(std::upper_bound(events.begin(), next, next->time, isBefore), next, next + 1);
+  }
 }
 
 }  // namespace
@@ -54,10 +63,13 @@ std::span<const ImpactEvent> Responder::step(double h) {
   // and had none before.
   const bool hasPairs = self.hasPairs();
   self.activeCount = 0;
+  if (self.anyCopied) self.refreshCopies();
+  self.readMovingBarriers();
   for (const std::unique_ptr<Vehicle>& vehicle : self.vehicles) {
     vehicle->isFar = vehicle->mover != Mover::world || vehicle->freeSpace.holds(h);
     vehicle->isAlone = !hasPairs || Traffic::isApart(vehicle->traveller, self.time, h);
-    vehicle->isActive = !vehicle->isFar || !vehicle->isAlone;
+    const bool mayBeHit = self.mayMeetMovingBarrier(*vehicle, h);
+    vehicle->isActive = !vehicle->isFar || !vehicle->isAlone || mayBeHit;
     if (vehicle->isActive) self.active[self.activeCount++] = vehicle.get();
   }
   for (Vehicle* vehicle : self.activeNow()) {
@@ -74,9 +86,19 @@ std::span<const ImpactEvent> Responder::step(double h) {
   }
   if (hasPairs) self.findCompany(h);
   if (self.activeCount > 0) self.stepAll(self.activeNow(), h);
+  if (!self.worldFrame.isUsual()) {
+    for (ImpactEvent& event : self.events) event = self.worldFrame.eventInWorld(event);
+  }
   self.time += h;
   self.lastStep = h;
+  sortByTime(self.events);
   return self.events;
+}
+
+void Responder::Implementation::refreshCopies() const {
+  for (const std::unique_ptr<Vehicle>& vehicle : vehicles) {
+    if (vehicle->bodies.areCopied()) vehicle->bodies.refresh();
+  }
 }
 
 void Responder::Implementation::stepAll(std::span<Vehicle* const> some, double h) {
@@ -104,7 +126,8 @@ void Responder::Implementation::read(Vehicle& vehicle, double h) {
   const Expectation expected = std::exchange(memory.expectation, {});
   vehicle.reading.isAsleep = vehicle.mover == Mover::world && vehicle.bodies.areAsleep() &&
                              !hasJointWithBody(vehicle.bodies);
-  if (vehicle.reading.isAsleep && !vehicle.hasCompany) {
+  const bool mayBeHit = vehicle.barrierSpeed >= 0.0;
+  if (vehicle.reading.isAsleep && !vehicle.hasCompany && !mayBeHit) {
     vehicle.guards.forget();
     return;
   }
@@ -128,10 +151,10 @@ void Responder::Implementation::read(Vehicle& vehicle, double h) {
   const bool remembersWalls =
       delivering || mayHaveEnded(memory.contacts, time) || !memory.passable.empty();
   if (isUpright && options.skipping && !remembersWalls && !vehicle.isFar) {
-    vehicle.isFar = vehicle.freeSpace.find(barriers, state, gravityOf(world), h,
+    vehicle.isFar = vehicle.freeSpace.find(barriers, state, gravityOf(world, worldFrame), h,
                                            stepsUntilEnd(memory.contacts, time, h));
   }
-  if (vehicle.isFar && !vehicle.hasCompany) return;
+  if (vehicle.isFar && !vehicle.hasCompany && !mayBeHit) return;
   vehicle.reading.takesPart = true;
   vehicle.reading.isHeld =
       isUpright && vehicle.mover == Mover::world && hasOuterJoint(vehicle.bodies);
@@ -146,6 +169,29 @@ void Responder::Implementation::read(Vehicle& vehicle, double h) {
   if (mayHaveEnded(memory.contacts, time)) reportEndedContacts(vehicle);
   if (!delivering) vehicle.memoryBefore = memory;
   applyPassableWalls(vehicle);
+}
+
+void Responder::Implementation::readMovingBarriers() {
+  for (Barrier* barrier : movingBarriers) barrier->frame().read(time);
+}
+
+bool Responder::Implementation::mayMeetMovingBarrier(Vehicle& vehicle, double h) const {
+  vehicle.barrierSpeed = -1.0;
+  if (movingBarriers.empty() || vehicle.mover != Mover::world) return false;
+  const BodyNumbers& chassis = vehicle.bodies.numbers().front();
+  const Eigen::Vector3d place = toVector(chassis.position);
+  const double radius = vehicle.traveller.radius + vehicle.envelope.radius();
+  const double own = toVector(chassis.velocity).norm() + toVector(chassis.turning).norm() * radius;
+  for (const Barrier* barrier : movingBarriers) {
+    const BarrierFrame& frame = barrier->frame();
+    const double speed = frame.fastestWithin(place, radius);
+    // Thrown by it, too; beyond that a wall has no guards.
+    const double reach = radius + (h + longestPenetrationTime) * (own + 3.0 * speed) +
+                         2.0 * guardDistance(std::max(own, speed), h);
+    if (!barrier->mayComeWithin(frame.toFrame(place), reach)) continue;
+    vehicle.barrierSpeed = std::max(vehicle.barrierSpeed, speed);
+  }
+  return vehicle.barrierSpeed >= 0.0;
 }
 
 void Responder::Implementation::collectWalls(Vehicle& vehicle, double h) {
@@ -164,16 +210,28 @@ void Responder::Implementation::collectWalls(Vehicle& vehicle, double h) {
     question.around = hull(question.around, vehicle.envelope.outline().enlarged(near));
     question.reach = std::max(question.reach, near);
   }
-  vehicle.nearby.collect(vehicle.envelope, barriers, vehicle.reading.state, question);
+  const bool mayBeHit = vehicle.barrierSpeed >= 0.0;
+  if (mayBeHit) {
+    // As a barrier that moves sees it; hit by that it may be thrown.
+    PlanRectangle swept = vehicle.envelope.swept(motion, h);
+    swept.half.array() += h * vehicle.barrierSpeed;
+    question.around = hull(question.around, swept);
+    question.reach += 3.0 * vehicle.barrierSpeed * (h + longestPenetrationTime);
+  }
+  const BarrierList list{
+      .all = barriers,
+      .moving = mayBeHit ? std::span<Barrier* const>(movingBarriers) : std::span<Barrier* const>()};
+  vehicle.nearby.collect(vehicle.envelope, list, vehicle.reading.state, question);
 }
 
 // Adds the walls' impulses on a vehicle to its force pulse and to the events.
 void Responder::Implementation::solve(Vehicle& vehicle, double h) {
   const CollisionStep::Walls walls = vehicle.nearby.all();
   if (walls.segments.empty()) return;
-  if (vehicle.reading.isAsleep) return;
+  if (vehicle.reading.isAsleep && vehicle.barrierSpeed < 0.0) return;
   const StepOutcome outcome =
       collision.resolve(vehicle.parametersNow(), vehicle.reading.motion, walls, h);
+  if (vehicle.reading.isAsleep && outcome.impacts.empty()) return;
   applyOutcome(vehicle, outcome, h);
   if (vehicle.reading.isHeld && options.guardContacts) {
     addGuards(vehicle,
@@ -196,10 +254,11 @@ void Responder::Implementation::applyOutcome(Vehicle& vehicle, const StepOutcome
     const Barrier& barrier = *hit.barrier;
     const int number = barrier.settingsNumberOf(hit.wall);
     const double contactTime = barrier.settings(number).contactTime;
-    PassableWall passable{.barrier = barrier.id(),
-                          .settings = number,
-                          .place = state.massCentre + state.toWorld(each.impact.point),
-                          .normal = state.toWorld(each.impact.normal)};
+    PassableWall passable{
+        .barrier = barrier.id(),
+        .settings = number,
+        .place = barrier.toFrame(state.massCentre + state.toWorld(each.impact.point)),
+        .normal = barrier.directionToFrame(state.toWorld(each.impact.normal))};
     // What presses steadily is answered in each step, or it would sink in while pulses run.
     const bool presses =
         each.response.approachSpeed < impactInContact * barrier.settings(number).restSpeed;
@@ -215,8 +274,24 @@ void Responder::Implementation::applyOutcome(Vehicle& vehicle, const StepOutcome
       passable.until = passable.depth = 0.0;
       vehicle.memory.passable.push_back(passable);
     }
+    if (barrier.frame().moves()) pushBack(barrier, vehicle, each, h);
     reportImpact(vehicle, barrier, hit.wall, each);
   }
+}
+
+// A barrier that forces move takes the opposite of an impulse.
+void Responder::Implementation::pushBack(const Barrier& barrier, const Vehicle& vehicle,
+                                         const StepImpact& each, double h) {
+  dBodyID body = barrier.frame().body();
+  if (body == nullptr || dBodyIsKinematic(body) != 0) return;
+  const VehicleState& state = vehicle.reading.state;
+  const WorldFrame& frame = vehicle.bodies.frame();
+  const Eigen::Vector3d force =
+      frame.vectorInWorld(state.toWorld(-each.response.impulse.linear) / h);
+  const Eigen::Vector3d place =
+      frame.vectorInWorld(state.massCentre + state.toWorld(each.impact.point));
+  dBodyEnable(body);
+  dBodyAddForceAtPos(body, force.x(), force.y(), force.z(), place.x(), place.y(), place.z());
 }
 
 // A wall near at the step's end was near at its start, so that those further away do not matter.
@@ -237,12 +312,19 @@ void Responder::Implementation::addGuards(Vehicle& vehicle,
     const bool slides =
         contact.gap <= slidingGap && settings.frictionKind == Friction::Kind::coulomb;
     const Impact impact{.normal = contact.normal, .arm = contact.arm};
+    // Friction is that of the motion relative to the wall.
+    PlanarMotion relative = motion;
+    const BarrierFrame& frame = hit.barrier->frame();
+    if (frame.moves()) {
+      const PlanarMotion walls = frame.inYawPlane(vehicle.reading.state);
+      relative.velocity -= velocityAt(walls, contact.arm - walls.position);
+    }
     vehicle.guards.add(
         {.contact = contact,
          .barrier = hit.barrier->id(),
          .wall = hit.wall,
          .friction =
-             slides ? settings.friction(attackDirection(impact, motion, settings.angle)) : 0.0},
+             slides ? settings.friction(attackDirection(impact, relative, settings.angle)) : 0.0},
         guardJoints.get(), vehicle.bodies.chassis(), vehicle.reading.state,
         {.time = time, .size = h});
     hasGuards = true;

@@ -17,7 +17,7 @@ struct Vehicle;
 /// What Traffic knows of one vehicle.
 struct Traveller {
   Vehicle* vehicle = nullptr;
-  // What ODE keeps of the chassis. These addresses do not change while the body lives.
+  // The chassis' BodyNumbers.
   const dReal* position = nullptr;
   const dReal* rotation = nullptr;
   const dReal* velocity = nullptr;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "bumper/response/error.h"
 #include "geom_class.h"
@@ -23,20 +24,26 @@ double massOf(dBodyID body) {
 
 // The torque that gives a body an angular acceleration, by the inertia about its origin, which ODE
 // requires to be its mass centre.
-Eigen::Vector3d torqueFor(const dMass& mass, dBodyID body, const Eigen::Vector3d& acceleration) {
-  const Eigen::Matrix3d rotation = toMatrix(dBodyGetRotation(body));
+Eigen::Vector3d torqueFor(const Eigen::Matrix3d& inertia, const Eigen::Matrix3d& rotation,
+                          const Eigen::Vector3d& acceleration) {
   const Eigen::Vector3d inOwnAxes = rotation.transpose() * acceleration;
-  const Eigen::Vector3d torque = toMatrix(mass.I) * inOwnAxes;
+  const Eigen::Vector3d torque = inertia * inOwnAxes;
   return rotation * torque;
 }
 
-VehicleBodies bodiesOf(dBodyID chassis, std::span<const dBodyID> linkedBodies, const char* call) {
+void copy(const Eigen::Vector3d& v, dReal* to) {
+  for (int k = 0; k < 3; ++k) to[k] = v[k];
+}
+
+// In the world's own axes and unit.
+VehicleBodies bodiesOf(dBodyID chassis, std::span<const dBodyID> linkedBodies,
+                       const ChassisAxes& axes, const char* call) {
   std::vector<dBodyID> bodies{chassis};
   bodies.insert(bodies.end(), linkedBodies.begin(), linkedBodies.end());
   if (std::find(bodies.begin(), bodies.end(), nullptr) != bodies.end()) {
     throw Error(std::string(call) + ": a body is null");
   }
-  return VehicleBodies(std::move(bodies));
+  return VehicleBodies(std::move(bodies), WorldFrame(), turnOf(axes));
 }
 
 // The geoms of bodies that cannot be measured, for an error.
@@ -65,46 +72,93 @@ bool VehicleState::isFinite() const {
          std::isfinite(yawRate) && acceleration.allFinite() && std::isfinite(yawAcceleration);
 }
 
+VehicleBodies::VehicleBodies(std::vector<dBodyID> bodies, const WorldFrame& frame, const Turn& axes)
+    : bodies_(std::move(bodies)), frame_(frame), axes_(axes) {
+  if (!frame_.isUsual() || !axes_.isNone()) copies_ = std::make_unique<Copy[]>(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    dBodyID body = bodies_[i];
+    if (copies_ != nullptr) {
+      const Copy& own = copies_[i];
+      numbers_.push_back(
+          {own.position, own.rotation, own.velocity, own.turning, own.force, own.torque});
+    } else {
+      numbers_.push_back({dBodyGetPosition(body), dBodyGetRotation(body), dBodyGetLinearVel(body),
+                          dBodyGetAngularVel(body), dBodyGetForce(body), dBodyGetTorque(body)});
+    }
+  }
+  if (areCopied()) refresh();
+}
+
+void VehicleBodies::refresh() const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    dBodyID body = bodies_[i];
+    Copy& own = copies_[i];
+    const Eigen::Matrix3d rotation = axesOf(body);
+    for (int row = 0; row < 3; ++row) copy(rotation.row(row), own.rotation + 4 * row);
+    copy(positionOf(body), own.position);
+    copy(velocityOf(body), own.velocity);
+    copy(frame_.direction(toVector(dBodyGetAngularVel(body))), own.turning);
+    copy(frame_.vector(toVector(dBodyGetForce(body))), own.force);
+    copy(frame_.torque(toVector(dBodyGetTorque(body))), own.torque);
+  }
+}
+
+Eigen::Matrix3d VehicleBodies::inertiaOf(const dMass& mass) const {
+  const Eigen::Matrix3d inertia = toMatrix(mass.I);
+  if (!areCopied()) return inertia;
+  return axes_.ofRows(axes_.ofColumns(inertia)) / (frame_.metre() * frame_.metre());
+}
+
+Eigen::Quaterniond VehicleBodies::orientationInWorld() const {
+  const dReal* q = dBodyGetQuaternion(chassis());
+  const Eigen::Quaterniond orientation(q[0], q[1], q[2], q[3]);
+  if (axes_.isNone()) return orientation;
+  return orientation * Eigen::Quaterniond(axes_.rows()).conjugate();
+}
+
 VehiclePose VehicleBodies::readPose() const {
   VehiclePose pose;
-  pose.axes = toMatrix(dBodyGetRotation(chassis()));
-  pose.massCentre = toVector(dBodyGetPosition(chassis()));
+  pose.axes = axes();
+  pose.massCentre = position();
   if (bodies_.size() == 1) return pose;
   double mass = 0.0;
   pose.massCentre.setZero();
   for (dBodyID body : bodies_) {
     const double itsMass = massOf(body);
     mass += itsMass;
-    pose.massCentre += itsMass * toVector(dBodyGetPosition(body));
+    pose.massCentre += itsMass * positionOf(body);
   }
   pose.massCentre /= mass;
   return pose;
 }
 
 VehicleState VehicleBodies::read() const {
+  if (areCopied()) refresh();
   VehicleState state;
   static_cast<VehiclePose&>(state) = readPose();
   const Eigen::Vector3d up = state.up();
-  state.yawRate = toVector(dBodyGetAngularVel(chassis())).dot(up);
+  state.yawRate = toVector(numbers_.front().turning).dot(up);
 
-  dVector3 gravity;
-  dWorldGetGravity(dBodyGetWorld(chassis()), gravity);
+  dVector3 worldGravity;
+  dWorldGetGravity(dBodyGetWorld(chassis()), worldGravity);
+  const Eigen::Vector3d gravity = frame_.vector(toVector(worldGravity));
   state.velocity.setZero();
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   double moment = 0.0;
-  for (dBodyID body : bodies_) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const BodyNumbers& its = numbers_[i];
     dMass mass;
-    dBodyGetMass(body, &mass);
-    const Eigen::Vector3d itsForce = toVector(dBodyGetForce(body));
+    dBodyGetMass(bodies_[i], &mass);
+    const Eigen::Vector3d itsForce = toVector(its.force);
     state.mass += mass.mass;
-    state.velocity += mass.mass * toVector(dBodyGetLinearVel(body));
+    state.velocity += mass.mass * toVector(its.velocity);
     force += itsForce;
-    if (dBodyGetGravityMode(body) != 0) force += mass.mass * toVector(gravity);
+    if (dBodyGetGravityMode(bodies_[i]) != 0) force += mass.mass * gravity;
 
-    const Eigen::Vector3d arm = toVector(dBodyGetPosition(body)) - state.massCentre;
-    const Eigen::Vector3d axis = toMatrix(dBodyGetRotation(body)).transpose() * up;
-    state.yawInertia += axis.dot(toMatrix(mass.I) * axis) + mass.mass * up.cross(arm).squaredNorm();
-    moment += up.dot(toVector(dBodyGetTorque(body)) + arm.cross(itsForce));
+    const Eigen::Vector3d arm = toVector(its.position) - state.massCentre;
+    const Eigen::Vector3d axis = toMatrix(its.rotation).transpose() * up;
+    state.yawInertia += axis.dot(inertiaOf(mass) * axis) + mass.mass * up.cross(arm).squaredNorm();
+    moment += up.dot(toVector(its.torque) + arm.cross(itsForce));
   }
   state.velocity /= state.mass;
   state.acceleration = force / state.mass;
@@ -126,11 +180,13 @@ void VehicleBodies::push(const VehicleState& state, const PlanarForce& force) co
   const Eigen::Vector3d acceleration = state.toWorld(force.force) / state.mass;
   const Eigen::Vector3d turning = force.yawMoment / state.yawInertia * state.up();
   for (dBodyID body : bodies_) {
-    const Eigen::Vector3d arm = toVector(dBodyGetPosition(body)) - state.massCentre;
+    const Eigen::Vector3d arm = positionOf(body) - state.massCentre;
     dMass mass;
     dBodyGetMass(body, &mass);
-    const Eigen::Vector3d share = mass.mass * (acceleration + turning.cross(arm));
-    const Eigen::Vector3d torque = torqueFor(mass, body, turning);
+    const Eigen::Vector3d share =
+        frame_.vectorInWorld(mass.mass * (acceleration + turning.cross(arm)));
+    const Eigen::Vector3d torque =
+        frame_.torqueInWorld(torqueFor(inertiaOf(mass), axesOf(body), turning));
     // ODE keeps the force of a sleeping body until it wakes by other means.
     if (dBodyIsEnabled(body) == 0) dBodyEnable(body);
     dBodyAddForce(body, share.x(), share.y(), share.z());
@@ -142,10 +198,11 @@ void VehicleBodies::changeVelocity(const VehicleState& state, const PlanarImpuls
   const Eigen::Vector3d change = state.toWorld(impulse.linear) / state.mass;
   const Eigen::Vector3d turning = impulse.angular / state.yawInertia * state.up();
   for (dBodyID body : bodies_) {
-    const Eigen::Vector3d arm = toVector(dBodyGetPosition(body)) - state.massCentre;
+    const Eigen::Vector3d arm = positionOf(body) - state.massCentre;
     const Eigen::Vector3d velocity =
-        toVector(dBodyGetLinearVel(body)) + change + turning.cross(arm);
-    const Eigen::Vector3d angular = toVector(dBodyGetAngularVel(body)) + turning;
+        frame_.vectorInWorld(velocityOf(body) + change + turning.cross(arm));
+    const Eigen::Vector3d angular =
+        frame_.directionInWorld(frame_.direction(toVector(dBodyGetAngularVel(body))) + turning);
     if (dBodyIsEnabled(body) == 0) dBodyEnable(body);
     dBodySetLinearVel(body, velocity.x(), velocity.y(), velocity.z());
     dBodySetAngularVel(body, angular.x(), angular.y(), angular.z());
@@ -165,8 +222,9 @@ Band plateBand(const VehicleParameters& vehicle) {
 
 VehicleParameters parametersFromBodies(dBodyID chassis, std::span<const dBodyID> linkedBodies,
                                        double massCentreToFront, double massCentreToRear,
-                                       double width, double massCentreHeight) {
-  const VehicleState state = bodiesOf(chassis, linkedBodies, "parametersFromBodies").read();
+                                       double width, double massCentreHeight,
+                                       const ChassisAxes& axes) {
+  const VehicleState state = bodiesOf(chassis, linkedBodies, axes, "parametersFromBodies").read();
   return {.mass = state.mass,
           .yawInertia = state.yawInertia,
           .massCentreToFront = massCentreToFront,
@@ -176,8 +234,8 @@ VehicleParameters parametersFromBodies(dBodyID chassis, std::span<const dBodyID>
 }
 
 VehicleParameters parametersFromGeoms(dBodyID chassis, std::span<const dBodyID> linkedBodies,
-                                      double massCentreHeight) {
-  const VehicleBodies bodies = bodiesOf(chassis, linkedBodies, "parametersFromGeoms");
+                                      double massCentreHeight, const ChassisAxes& axes) {
+  const VehicleBodies bodies = bodiesOf(chassis, linkedBodies, axes, "parametersFromGeoms");
   const VehicleState state = bodies.read();
   const std::optional<VehicleExtents> geoms = extentsOf(bodies.all(), state);
   if (!geoms) throw Error("parametersFromGeoms: the bodies " + geomsOf(bodies.all()));

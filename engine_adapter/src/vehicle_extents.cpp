@@ -204,18 +204,27 @@ class Measurement {
 }  // namespace
 
 std::optional<VehicleExtents> extentsOf(std::span<const dBodyID> bodies, const VehiclePose& pose,
-                                        const Heights& heights) {
+                                        const Heights& heights, const WorldFrame& frame) {
+  // In the world's unit.
+  const double metre = frame.metre();
   Eigen::Isometry3d toVehicle = Eigen::Isometry3d::Identity();
-  toVehicle.linear() = pose.axes.transpose();
-  toVehicle.translation() = -pose.axes.transpose() * pose.massCentre;
-  Measurement measurement(heights);
+  toVehicle.linear() = pose.axes.transpose() * frame.turn().rows();
+  toVehicle.translation() = -metre * (pose.axes.transpose() * pose.massCentre);
+  Measurement measurement({.low = metre * heights.low, .high = metre * heights.high});
   for (dBodyID body : bodies) {
     for (dGeomID geom = dBodyGetFirstGeom(body); geom != nullptr; geom = dBodyGetNextGeom(geom)) {
       if (dGeomGetCategoryBits(geom) == 0 && dGeomGetCollideBits(geom) == 0) continue;
       measurement.add(geom, toVehicle);
     }
   }
-  return measurement.result();
+  std::optional<VehicleExtents> extents = measurement.result();
+  if (!extents || frame.isUsual()) return extents;
+  for (const auto side :
+       {&VehicleExtents::front, &VehicleExtents::rear, &VehicleExtents::left,
+        &VehicleExtents::right, &VehicleExtents::lowest, &VehicleExtents::highest}) {
+    *extents.*side /= metre;
+  }
+  return extents;
 }
 
 }  // namespace bumper

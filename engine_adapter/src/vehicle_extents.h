@@ -28,7 +28,7 @@ struct Heights {
 };
 
 /// The extents of the geoms on these bodies within `heights`; nothing if none is there. `pose` is
-/// the vehicle's, of which the bodies may be a part.
+/// the vehicle's, of which the bodies may be a part, in the frame.
 ///
 /// Exact for boxes, spheres, capsules, cylinders, convexes and, in ODE's single precision,
 /// trimeshes, all as they lie now, and for one in a geom transform; not for a convex in a geom
@@ -36,6 +36,6 @@ struct Heights {
 /// shape ODE does not expose, and rays and geoms without category and collide bits, which hit
 /// nothing.
 std::optional<VehicleExtents> extentsOf(std::span<const dBodyID> bodies, const VehiclePose& pose,
-                                        const Heights& heights = {});
+                                        const Heights& heights = {}, const WorldFrame& frame = {});
 
 }  // namespace bumper

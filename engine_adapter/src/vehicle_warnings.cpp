@@ -81,7 +81,7 @@ void warnOfOutline(const VehicleBodies& bodies, const VehicleParameters& paramet
   const Heights heights{.low = band.bottom - parameters.massCentreHeight,
                         .high = band.top - parameters.massCentreHeight};
   const auto outOf = [&](std::span<const dBodyID> some) {
-    const std::optional<VehicleExtents> geoms = extentsOf(some, pose, heights);
+    const std::optional<VehicleExtents> geoms = extentsOf(some, pose, heights, bodies.frame());
     return geoms ? standingOut(*geoms, outline) : std::string();
   };
   const std::string chassis = outOf(bodies.all().first(1));
@@ -102,12 +102,23 @@ void warnOfOutline(const VehicleBodies& bodies, const VehicleParameters& paramet
 
 void warnOfHeight(const VehicleBodies& bodies, const VehicleParameters& parameters,
                   const std::string& vehicle, std::vector<std::string>& warnings) {
-  const std::optional<VehicleExtents> geoms = extentsOf(bodies.all(), bodies.readPose());
+  const std::optional<VehicleExtents> geoms =
+      extentsOf(bodies.all(), bodies.readPose(), {}, bodies.frame());
   if (!geoms || -geoms->lowest <= parameters.massCentreHeight + droop) return;
   warnings.push_back(vehicle + "its geoms reach " + metres(-geoms->lowest) +
                      " below the mass centre, which the parameters put " +
                      metres(parameters.massCentreHeight) +
                      " above the ground: the band lies too high by the difference");
+}
+
+// Axes given wrong: the responder would leave the vehicle to ODE without a word.
+void warnOfLean(const VehicleBodies& bodies, const std::string& vehicle,
+                std::vector<std::string>& warnings) {
+  constexpr double lying = 0.5;
+  if (!(bodies.uprightness() < lying)) return;
+  warnings.push_back(vehicle +
+                     "it leans by more than 60°, so that its contacts are ODE's: see "
+                     "VehicleOptions::axes and ResponderOptions::axes if it stands upright");
 }
 
 }  // namespace
@@ -123,20 +134,22 @@ std::vector<std::string> warningsOf(const VehicleBodies& bodies,
   }
   warnOfOutline(bodies, parameters, band, vehicle, warnings);
   warnOfHeight(bodies, parameters, vehicle, warnings);
+  warnOfLean(bodies, vehicle, warnings);
   return warnings;
 }
 
-std::optional<std::string> warningOf(dWorldID world) {
+std::optional<std::string> warningOf(dWorldID world, const WorldFrame& frame) {
   dVector3 gravity;
   dWorldGetGravity(world, gravity);
-  if (std::hypot(gravity[0], gravity[1]) <= -modelledSlope * gravity[2]) return std::nullopt;
+  const Eigen::Vector3d own = frame.direction(toVector(gravity));
+  if (own.head<2>().norm() <= -modelledSlope * own.z()) return std::nullopt;
+  const Eigen::Vector3d up = frame.directionInWorld(Eigen::Vector3d::UnitZ());
   // Not a stream, which would swallow that memory has run out.
-  char text[200];
-  std::snprintf(
-      text, sizeof text,
-      "the world's gravity is (%g, %g, %g) m/s², not along -z: for Bumper up is z, in the "
-      "world and in every vehicle",
-      gravity[0], gravity[1], gravity[2]);
+  char text[300];
+  std::snprintf(text, sizeof text,
+                "the world's gravity is (%g, %g, %g), not along -up: up is (%g, %g, %g), see "
+                "ResponderOptions::axes and VehicleOptions::axes",
+                gravity[0], gravity[1], gravity[2], up.x(), up.y(), up.z());
   return text;
 }
 

@@ -16,7 +16,7 @@ std::vector<std::string> warningsOf(const VehicleBodies& bodies,
                                     const VehicleParameters& parameters, const Band& band,
                                     const std::string& name);
 
-/// A warning if the world's gravity is not along −z.
-std::optional<std::string> warningOf(dWorldID world);
+/// A warning if the world's gravity is not along −up.
+std::optional<std::string> warningOf(dWorldID world, const WorldFrame& frame);
 
 }  // namespace bumper

@@ -184,7 +184,7 @@ void makeCloseUps(Arguments& arguments) {
   makeFolder(arguments.result);
   std::vector<std::pair<double, std::size_t>> hardest;
   for (std::size_t k = 0; k < run.recording.impacts().size(); ++k)
-    hardest.emplace_back(-run.recording.impacts()[k].event().deltaV, k);
+    hardest.emplace_back(-hardness(run.recording.impacts()[k].event()), k);
   std::sort(hardest.begin(), hardest.end());
   if (hardest.size() > arguments.sheet.impacts) hardest.resize(arguments.sheet.impacts);
   for (const auto& [unused, k] : hardest) {

@@ -25,6 +25,26 @@ std::string placeOf(const Vector2& arm, const VehicleParameters& car) {
   return place + (arm.y() > 0.0 ? "left" : "right");
 }
 
+// What a vehicle has hit, as a name that can be printed.
+std::string hitBy(const ImpactEvent& event) {
+  if (!event.otherVehicle.empty()) return printable(event.otherVehicle);
+  return printable(event.material.empty() ? event.barrier : event.material);
+}
+
+// One line: an impact as one of its vehicles sees it; without the number if it has been told.
+void printImpact(const std::string& number, const ImpactEvent& event, const Recording& recording) {
+  const auto car = std::ranges::find(recording.vehicles(), event.vehicle, &RecordedVehicle::name);
+  const bool isKnown = car != recording.vehicles().end() && event.arm.allFinite();
+  const std::string place = isKnown ? placeOf(event.arm, car->parameters) : "?";
+  std::printf("  %3s %8.3f  ", number.c_str(), event.time);
+  if (recording.vehicles().size() > 1) std::printf("%-14.14s ", printable(event.vehicle).c_str());
+  std::printf("%-12s %-14.14s %7.1f %9.2f %9.2f %10.0f %7.0f → %7.0f %6.2f → %6.2f\n",
+              place.c_str(), hitBy(event).c_str(), event.angles.contactVelocity * degrees,
+              event.approachSpeed, event.deltaV,
+              std::hypot(event.impulseNormal, event.impulseTangent), event.yawRateBefore * degrees,
+              event.yawRateAfter * degrees, event.speedBefore, event.speedAfter);
+}
+
 }  // namespace
 
 void printImpacts(const Recording& recording, std::size_t most) {
@@ -33,30 +53,25 @@ void printImpacts(const Recording& recording, std::size_t most) {
     return;
   }
   std::vector<double> changes;
-  for (const RecordedImpact& each : recording.impacts()) changes.push_back(each.event().deltaV);
+  for (const RecordedImpact& each : recording.impacts()) changes.push_back(hardness(each.event()));
   std::sort(changes.begin(), changes.end(), std::greater<>());
   const double least = changes.size() > most ? changes[most - 1] : 0.0;
   if (changes.size() > most) {
     std::printf("  the %zu hardest of %zu impacts:\n", most, changes.size());
   }
-  std::printf("  %3s %8s  %-12s %-14s %7s %9s %9s %10s %17s %15s\n", "#", "time s", "where", "wall",
+  const bool several = recording.vehicles().size() > 1;
+  std::printf("  %3s %8s  ", "#", "time s");
+  if (several) std::printf("%-14s ", "vehicle");
+  std::printf("%-12s %-14s %7s %9s %9s %10s %17s %15s\n", "where", several ? "hits" : "wall",
               "angle °", "closing", "Δv m/s", "impulse Ns", "yaw rate °/s", "speed m/s");
   int number = 0;
   for (const RecordedImpact& each : recording.impacts()) {
     ++number;
     const ImpactEvent event = each.event();
-    if (event.deltaV < least) continue;
-    const VehicleParameters* car = nullptr;
-    for (const RecordedVehicle& vehicle : recording.vehicles()) {
-      if (vehicle.name == event.vehicle) car = &vehicle.parameters;
-    }
-    const std::string wall = printable(event.material.empty() ? event.barrier : event.material);
-    std::printf(
-        "  %3d %8.3f  %-12s %-14.14s %7.1f %9.2f %9.2f %10.0f %7.0f → %7.0f %6.2f → %6.2f\n",
-        number, event.time, placeOf(event.arm, *car).c_str(), wall.c_str(),
-        event.angles.contactVelocity * degrees, event.approachSpeed, event.deltaV,
-        std::hypot(event.impulseNormal, event.impulseTangent), event.yawRateBefore * degrees,
-        event.yawRateAfter * degrees, event.speedBefore, event.speedAfter);
+    if (hardness(event) < least) continue;
+    printImpact(std::to_string(number), event, recording);
+    // The other vehicle's side of it.
+    if (const auto other = asSeenBy(event.otherVehicle, event)) printImpact("", *other, recording);
   }
 }
 

@@ -86,8 +86,8 @@ const std::vector<RecordedPose>& posesOf(const Recording& recording, const PlotO
 std::vector<ImpactEvent> impactsOf(const Recording& recording, const PlotOptions& options) {
   std::vector<ImpactEvent> impacts;
   for (const RecordedImpact& impact : recording.impacts()) {
-    if (impact.event().vehicle == recording.vehicles()[options.vehicle].name)
-      impacts.push_back(impact.event());
+    if (const auto event = asSeenBy(recording.vehicles()[options.vehicle].name, impact.event()))
+      impacts.push_back(*event);
   }
   return impacts;
 }
@@ -102,7 +102,7 @@ void beginPlot(std::ostream& script, const Recording& recording, const PlotOptio
   for (const RecordedImpact& impact : recording.impacts()) {
     ++number;
     const ImpactEvent event = impact.event();
-    if (event.vehicle != recording.vehicles()[options.vehicle].name) continue;
+    if (!asSeenBy(recording.vehicles()[options.vehicle].name, event)) continue;
     script << "set arrow from " << event.time << ", graph 0 to " << event.time
            << ", graph 1 nohead lw 1 dt 3 lc rgb '#d62728' back\n";
     if (event.time - labelled < room) continue;
@@ -185,7 +185,7 @@ void plotForce(const Recording& recording, const PlotOptions& options,
   }
   script << "EOD\n";
   beginPlot(script, recording, options);
-  script << R"(set title 'Force on the mass centre, tyres and walls together'
+  script << R"(set title 'Force on the mass centre, tyres and impacts together'
 set ylabel 'force, kN'
 plot $force using 1:2 with lines lw 2 lc rgb '#1f4e9c' title 'along the vehicle, positive forward', \
      $force using 1:3 with lines lw 2 lc rgb '#d62728' title 'across, positive to the )"
@@ -201,7 +201,9 @@ void plotImpulse(const Recording& recording, const PlotOptions& options,
   double normal = 0.0;
   double tangent = 0.0;
   script << poses.front().time << " 0 0 0 0\n";
+  bool isHitByOthers = false;
   for (const ImpactEvent& event : impactsOf(recording, options)) {
+    isHitByOthers = isHitByOthers || !event.otherVehicle.empty();
     normal += event.impulseNormal / 1000.0;
     tangent += std::abs(event.impulseTangent) / 1000.0;
     script << event.time << ' ' << event.impulseNormal / 1000.0 << ' '
@@ -209,7 +211,8 @@ void plotImpulse(const Recording& recording, const PlotOptions& options,
   }
   script << poses.back().time << " 0 0 " << normal << ' ' << tangent << "\nEOD\n";
   beginPlot(script, recording, options);
-  script << R"(set title 'Impulse of the walls'
+  script << R"(set title ')"
+         << (isHitByOthers ? "Impulse of walls and other vehicles" : "Impulse of the walls") << R"('
 set ylabel 'impulse, kN s'
 set yrange [0:]
 set key top left

@@ -24,15 +24,16 @@ std::optional<UpAxis> upAxis(const std::string& name) {
 }
 
 Scene loadScene(const std::filesystem::path& file, const std::string& upOption,
-                const LoadOptions& options) {
-  LoadReport report;
+                const LoadOptions& options, LoadReport* report) {
+  LoadReport own;
+  LoadReport& said = report != nullptr ? *report : own;
   Scene scene;
   try {
-    scene = bumper::loadScene(file, options, &report);
+    scene = bumper::loadScene(file, options, &said);
   } catch (const Error& error) {
     throw Error(withOption(error.what(), upOption));
   }
-  for (const std::string& warning : report.warnings) {
+  for (const std::string& warning : said.warnings) {
     std::fprintf(stderr, "warning: %s\n", printable(withOption(warning, upOption)).c_str());
   }
   return scene;

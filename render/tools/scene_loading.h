@@ -12,8 +12,9 @@ namespace bumper::tools {
 std::optional<UpAxis> upAxis(const std::string& name);
 
 /// Reads a scene file and prints its warnings on standard error. `upOption` is the command line's
-/// name of LoadOptions::up, which warnings and errors about it name too.
+/// name of LoadOptions::up, which warnings and errors about it name too. `report`, if it is not
+/// null, is what loadScene() said.
 Scene loadScene(const std::filesystem::path& file, const std::string& upOption,
-                const LoadOptions& options);
+                const LoadOptions& options, LoadReport* report = nullptr);
 
 }  // namespace bumper::tools

@@ -14,7 +14,8 @@
 
 namespace bumper::tools {
 
-int runMain(const char* name, int (*program)(int argc, char** argv), int argc, char** argv) {
+int runMain(const char* name, int (*program)(int argc, char** argv), int argc, char** argv,
+            int failed) {
   try {
     removeUnfinishedFilesOnSignals();
     const int code = program(argc, argv);
@@ -22,7 +23,7 @@ int runMain(const char* name, int (*program)(int argc, char** argv), int argc, c
     return code;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", name, printable(error.what()).c_str());
-    return 1;
+    return failed;
   }
 }
 

@@ -8,8 +8,10 @@
 namespace bumper::tools {
 
 /// The whole of a main(): what `program` throws is printed on standard error after the name, with
-/// exit code 1; so is it if standard output cannot be written. A signal leaves no unfinished file.
-int runMain(const char* name, int (*program)(int argc, char** argv), int argc, char** argv);
+/// exit code `failed`; so is it if standard output cannot be written. A signal leaves no unfinished
+/// file.
+int runMain(const char* name, int (*program)(int argc, char** argv), int argc, char** argv,
+            int failed = 1);
 
 /// Reads the command line and runs the job. Returns the exit code: 0, or 2 if the command line is
 /// wrong. Throws what the job throws.

@@ -36,17 +36,27 @@ ImpactResponse before(const PlanarBody& vehicle, const PlanarBody& other,
   return response;
 }
 
+// Of all free bodies; of one vehicle alone as seen from what it hits: a gate that hits a vehicle at
+// rest gives it energy, and loses none.
+double energyOf(const Impact& impact, const PlanarBody& vehicle, const PlanarBody& other) {
+  if (other.isFree()) return vehicle.energy() + other.energy();
+  PlanarBody seen = vehicle;
+  seen.motion.velocity -= velocityAt(other.motion, impact.otherArm - impact.arm);
+  seen.motion.yawRate -= other.motion.yawRate;
+  return seen.energy();
+}
+
 // Applies an impulse to the vehicle, and its opposite to the other body.
 void apply(ImpactResponse& response, const Impact& impact, PlanarBody vehicle, PlanarBody other,
            const PlanarImpulse& impulse) {
-  const double energyBefore = vehicle.energy() + other.energy();
+  const double energyBefore = energyOf(impact, vehicle, other);
   vehicle.apply(impulse);
   other.apply({.linear = -impulse.linear, .angular = -cross(impact.otherArm, impulse.linear)});
   response.impulse = impulse;
   response.after = vehicle.motion;
   response.otherAfter = other.motion;
   if (energyBefore > 0.0) {
-    response.energyRatio = (vehicle.energy() + other.energy()) / energyBefore;
+    response.energyRatio = energyOf(impact, vehicle, other) / energyBefore;
   }
 }
 
@@ -110,7 +120,7 @@ ImpactResponse respond(const Impact& impact, const PlanarBody& vehicle, const Pl
     const EnergySolution solution =
         answerByEnergy(mobility, velocity,
                        {.energyRatio = response.energyAsked,
-                        .energyBefore = vehicle.energy() + other.energy(),
+                        .energyBefore = energyOf(impact, vehicle, other),
                         .friction = response.friction,
                         .maxRestitution = fade * settings.maxRestitution,
                         .root = settings.energyRoot},

@@ -10,7 +10,7 @@ namespace bumper {
 
 /// The paper's step: of the walls that the outline overlaps where the step begins, the one touched
 /// the longest time ago is resolved, once, at the middle of the overlap as found.
-class PaperStep {
+class BUMPER_HIDDEN PaperStep {
  public:
   PaperStep() = default;
   ~PaperStep() = default;

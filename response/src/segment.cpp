@@ -23,4 +23,15 @@ bool isOneWall(const Segment& segment, const Vector2& place, const Vector2& norm
          std::abs(normal.dot(away)) <= thickness + bend * std::abs(cross(normal, away));
 }
 
+Segment carried(const Segment& segment, const Placement& before, const Placement& after) {
+  const auto place = [&](const Vector2& point) -> Vector2 {
+    return after.position + after.turned(before.local(point));
+  };
+  Segment result = segment;
+  result.start = place(segment.start);
+  result.end = place(segment.end);
+  result.normal = after.turned(before.turnedBack(segment.normal));
+  return result;
+}
+
 }  // namespace bumper

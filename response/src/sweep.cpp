@@ -25,16 +25,36 @@ struct Gap {
   [[nodiscard]] bool counts() const { return aside <= 0.0; }
 };
 
-// The motion, and values shared by all evaluations.
+// The vehicle at one time, and its mass centre's velocity, as seen from the walls.
+struct Stage : Placement {
+  Vector2 velocity = Vector2::Zero();
+};
+
+// The motion as seen from the walls, and values shared by all evaluations. Walls that turn see the
+// mass centre on a curve.
 struct Flight {
   const PlanarMotion& motion;
-  double speed;     // of the mass centre
-  double turning;   // |yaw rate|
-  double from;      // when the search begins
-  Placement first;  // at `from`
+  const Vector2& pivot;
+  double spin;                // of the walls
+  double turning;             // |yaw rate|
+  double from;                // when the search begins
+  double speed = 0.0;         // the mass centre is no faster
+  double acceleration = 0.0;  // … and its velocity changes no faster
+  Stage first{};              // at `from`
 
-  [[nodiscard]] Placement at(double time) const {
-    return {motion.position + time * motion.velocity, motion.yaw + time * motion.yawRate};
+  [[nodiscard]] Stage at(double time) const {
+    Stage stage{{motion.position + time * motion.velocity, motion.yaw + time * motion.yawRate},
+                motion.velocity};
+    if (spin == 0.0) return stage;
+    const Placement walls(Vector2::Zero(), time * spin);
+    const Vector2 arm = walls.turnedBack(stage.position - pivot);
+    stage.position = pivot + arm;
+    stage.velocity = walls.turnedBack(motion.velocity) - spin * turnedLeft(arm);
+    return stage;
+  }
+  // Of a point of the outline.
+  [[nodiscard]] Vector2 velocityAt(const Stage& stage, const Vector2& arm) const {
+    return stage.velocity + motion.yawRate * turnedLeft(arm);
   }
 };
 
@@ -90,16 +110,17 @@ double cornerOnFace(const Flight& flight, const Vector2& corner, const Segment& 
   const double low = std::min(start, end) - touchTolerance;
   const double high = std::max(start, end) + touchTolerance;
   const double offset = normal.dot(wall.start);
-  const auto gapOf = [&](const Placement& at) {
+  const auto gapOf = [&](const Stage& at) {
     const Vector2 arm = at.turned(corner);
     const Vector2 place = at.position + arm;
     const double along = tangent.dot(place);
     return Gap{.distance = normal.dot(place) - offset,
-               .rate = normal.dot(velocityAt(flight.motion, arm)),
+               .rate = normal.dot(flight.velocityAt(at, arm)),
                .aside = std::max(low - along, along - high)};
   };
   const double swing = flight.turning * corner.norm();
-  return firstClosed(flight, gapOf, flight.speed + swing, flight.turning * swing, until);
+  return firstClosed(flight, gapOf, flight.speed + swing,
+                     flight.turning * swing + flight.acceleration, until);
 }
 
 // A point of the barrier, or the middle of a post, and a side of the outline.
@@ -109,10 +130,9 @@ double pointOnSide(const Flight& flight, const Vector2& point, const Segment& wa
   const double farthest = (point - flight.motion.position).norm() +
                           flight.speed * std::max(std::abs(flight.from), std::abs(until));
   const double fastest = flight.speed + flight.turning * farthest;
-  const auto gapOf = [&](const Placement& at) {
+  const auto gapOf = [&](const Stage& at) {
     const Vector2 local = at.local(point);
-    const Vector2 rate =
-        -at.turnedBack(flight.motion.velocity) - flight.motion.yawRate * turnedLeft(local);
+    const Vector2 rate = -at.turnedBack(at.velocity) - flight.motion.yawRate * turnedLeft(local);
     const double place = along.dot(local);
     Gap gap{.distance = out.dot(local) - reach - wall.radius,
             .rate = out.dot(rate),
@@ -124,24 +144,27 @@ double pointOnSide(const Flight& flight, const Vector2& point, const Segment& wa
     }
     return gap;
   };
-  return firstClosed(flight, gapOf, fastest,
-                     flight.turning * (2.0 * flight.speed + flight.turning * farthest), until);
+  return firstClosed(
+      flight, gapOf, fastest,
+      flight.turning * (2.0 * flight.speed + flight.turning * farthest) + flight.acceleration,
+      until);
 }
 
 // A corner of the outline and the round of a post.
 double cornerOnPost(const Flight& flight, const Vector2& corner, const Segment& post,
                     double until) {
-  const auto gapOf = [&](const Placement& at) {
+  const auto gapOf = [&](const Stage& at) {
     const Vector2 arm = at.turned(corner);
     const Vector2 away = at.position + arm - post.start;
     const double distance = away.norm();
     return Gap{.distance = distance - post.radius,
-               .rate = distance > 0.0 ? away.dot(velocityAt(flight.motion, arm)) / distance : 0.0,
+               .rate = distance > 0.0 ? away.dot(flight.velocityAt(at, arm)) / distance : 0.0,
                .aside = 0.0};
   };
   const double swing = flight.turning * corner.norm();
   const double speed = flight.speed + swing;
-  return firstClosed(flight, gapOf, speed, flight.turning * swing + speed * speed / post.radius,
+  return firstClosed(flight, gapOf, speed,
+                     flight.turning * swing + speed * speed / post.radius + flight.acceleration,
                      until);
 }
 
@@ -164,22 +187,34 @@ double leastTime(double distance, double rate, double acceleration) {
   return acceleration > 0.0 ? (root - rate) / acceleration : never;
 }
 
-Sweep::Sweep(const Outline& outline, const PlanarMotion& motion)
+Sweep::Sweep(const Outline& outline, const PlanarMotion& motion, const PlanarMotion& walls)
     : outline_(outline),
       motion_(motion),
-      start_(motion.placement()),
-      speed_(motion.velocity.norm()),
-      fastest_(speed_ + std::abs(motion.yawRate) * outline.radius()) {}
+      pivot_(walls.position),
+      spin_(walls.yawRate),
+      start_(motion.placement()) {
+  motion_.velocity -= walls.velocity;
+  motion_.yawRate -= walls.yawRate;
+  speed_ = motion_.velocity.norm();
+}
 
 double Sweep::timeOfTouch(const Segment& wall, const Overlap* touch, double from,
                           double until) const {
-  const Placement begin = from == 0.0 ? start_ : advanced(motion_, from).placement();
-  const Flight flight{.motion = motion_,
-                      .speed = speed_,
-                      .turning = std::abs(motion_.yawRate),
-                      .from = from,
-                      .first = begin};
-  const double way = fastest_ * (until - from) + 2.0 * touchTolerance;
+  Flight flight{.motion = motion_,
+                .pivot = pivot_,
+                .spin = spin_,
+                .turning = std::abs(motion_.yawRate),
+                .from = from,
+                .speed = speed_};
+  if (spin_ != 0.0) {
+    const double straight = flight.speed;
+    const double farthest = (motion_.position - pivot_).norm() + straight * until;
+    flight.speed += std::abs(spin_) * farthest;
+    flight.acceleration = std::abs(spin_) * (2.0 * straight + std::abs(spin_) * farthest);
+  }
+  flight.first = from == 0.0 ? Stage{start_, flight.at(0.0).velocity} : flight.at(from);
+  const double fastest = flight.speed + flight.turning * outline_.radius();
+  const double way = fastest * (until - from) + 2.0 * touchTolerance;
   const PlanRectangle bounds = outline_.enlarged(way + wall.radius);
   const Vector2 start = flight.first.local(wall.start);
   const Vector2 end = flight.first.local(wall.end);
@@ -205,8 +240,9 @@ double Sweep::timeOfTouch(const Segment& wall, const Overlap* touch, double from
     const Vector2 place = flight.first.position + arm;
     double height = wall.normal.dot(place - wall.start);
     if (std::abs(height) > way) continue;
-    const double rate = wall.normal.dot(velocityAt(motion_, arm));
-    const double acceleration = flight.turning * flight.turning * outline_.radius();
+    const double rate = wall.normal.dot(flight.velocityAt(flight.first, arm));
+    const double acceleration =
+        flight.turning * flight.turning * outline_.radius() + flight.acceleration;
     if (keepsSign(height, rate, acceleration, until - from)) continue;
     if (std::abs(cross(wall.normal, place - middle)) > halfLength + way) continue;
     // A corner comes from the side that it is on, unless it penetrates slightly.
@@ -227,10 +263,11 @@ double Sweep::timeOfTouch(const Segment& wall, const Overlap* touch, double from
     // As seen from the turning vehicle the point moves no faster than that.
     const double farthest = local.norm() + way;
     const double itsWay =
-        (speed_ + flight.turning * farthest) * (until - from) + 2.0 * touchTolerance;
+        (flight.speed + flight.turning * farthest) * (until - from) + 2.0 * touchTolerance;
     const Vector2 rate =
-        -flight.first.turnedBack(motion_.velocity) - motion_.yawRate * turnedLeft(local);
-    const double acceleration = flight.turning * (2.0 * speed_ + flight.turning * farthest);
+        -flight.first.turnedBack(flight.first.velocity) - motion_.yawRate * turnedLeft(local);
+    const double acceleration =
+        flight.turning * (2.0 * flight.speed + flight.turning * farthest) + flight.acceleration;
     for (const OutlineSide& side : sides) {
       const double away = side.out.dot(local) - side.reach - wall.radius;
       const double along = turnedLeft(side.out).dot(local);

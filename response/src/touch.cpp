@@ -126,6 +126,24 @@ Overlap lineOf(const Segment& wall, const Vector2& position) {
   return line;
 }
 
+Overlap carried(const Overlap& overlap, const Placement& before, const Placement& after) {
+  const auto place = [&](const Vector2& point) -> Vector2 {
+    return after.position + after.turned(before.local(point));
+  };
+  const Vector2 origin =
+      overlap.offset * overlap.normal + overlap.start * turnedLeft(overlap.normal);
+  Overlap result = overlap;
+  result.normal = after.turned(before.turnedBack(overlap.normal));
+  const Vector2 moved = place(origin);
+  result.offset = result.normal.dot(moved);
+  result.start = turnedLeft(result.normal).dot(moved);
+  result.end = result.start + (overlap.end - overlap.start);
+  result.deepest = result.start + (overlap.deepest - overlap.start);
+  result.insideFrom = place(overlap.insideFrom);
+  result.insideTo = place(overlap.insideTo);
+  return result;
+}
+
 Interference interference(const Outline& outline, const Placement& at, const Segment& wall) {
   const Vector2 start = at.local(wall.start);
   const Vector2 along = at.turnedBack(wall.end - wall.start);

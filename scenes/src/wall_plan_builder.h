@@ -11,7 +11,7 @@ namespace bumper {
 inline constexpr double coarseness = 0.05;
 
 /// Puts walls that follow one another into one line as long as it stays true to them.
-class WallPlan::Builder {
+class BUMPER_HIDDEN WallPlan::Builder {
  public:
   /// Appends to `nodes`, as seen from `origin`. Rounding moves a node and changes its thickness by
   /// no more than `roundingError`, m.

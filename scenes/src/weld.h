@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-namespace bumper {
+#include "bumper/base/api.h"
+
+namespace BUMPER_INTERNAL bumper {
 
 /// Corners at most this far apart, m, are one: well above the rounding of the single precision in
 /// which most files hold coordinates, well below any gap that matters to a vehicle.

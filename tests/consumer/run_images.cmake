@@ -9,7 +9,7 @@ foreach(component IN ITEMS base images)
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix --component ${component})
 endforeach()
 file(GLOB_RECURSE headers RELATIVE ${WORK}/prefix/include ${WORK}/prefix/include/*)
-set(expected bumper/render/golden_image.h bumper/render/image.h bumper/render/image_compare.h
+set(expected bumper/base/api.h bumper/render/golden_image.h bumper/render/image.h bumper/render/image_compare.h
              bumper/render/image_matcher.h bumper/response/error.h)
 if(NOT headers STREQUAL expected)
   message(FATAL_ERROR "base and images install the headers\n  ${headers}\ninstead of\n  ${expected}")

@@ -6,7 +6,7 @@ file(REMOVE_RECURSE ${WORK})
 unset(ENV{BUMPER_READ_SCENE})
 set(ENV{MESA_SHADER_CACHE_DISABLE} true)
 
-foreach(component IN ITEMS scene_files tools)
+foreach(component IN ITEMS scene_files_runtime tools)
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix --component ${component})
 endforeach()
 file(MAKE_DIRECTORY ${WORK}/links)

@@ -1,48 +1,16 @@
-// step() allocates nothing after warm-up: a program of its own, because it replaces malloc.
+// step() allocates nothing after warm-up.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <vector>
 
 #include "box_car.h"
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/scenes/paper_scenes.h"
+#include "caught_allocations.h"
 #include "ode_world.h"
-
-namespace {
-
-// Whoever allocates while this is set is caught.
-thread_local bool guarded = false;
-thread_local int caught = 0;
-
-}  // namespace
-
-#ifndef __SANITIZE_ADDRESS__
-
-extern "C" {
-// The C library's own, under the names that it keeps for this purpose.
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t count, std::size_t size);
-void* __libc_realloc(void* memory, std::size_t size);
-
-void* malloc(std::size_t size) {
-  if (guarded) ++caught;
-  return __libc_malloc(size);
-}
-void* calloc(std::size_t nmemb, std::size_t size) {
-  if (guarded) ++caught;
-  return __libc_calloc(nmemb, size);
-}
-void* realloc(void* ptr, std::size_t size) {
-  if (guarded) ++caught;
-  return __libc_realloc(ptr, size);
-}
-}
-
-#endif
 
 namespace bumper::tests {
 namespace {

@@ -97,7 +97,8 @@ TEST(BadInput, Barriers) {
 
   expectError([&] { responder.addBarrier(dGeomID{nullptr}); }, "null");
   BoxCar car(ode.world);
-  expectError([&] { responder.addBarrier(car.geom); }, "has a body");
+  responder.addVehicle(car.body, car.parameters, {.name = "truck"});
+  expectError([&] { responder.addBarrier(car.geom); }, "has a body of vehicle 'truck'");
   const dGeomID sphere = dCreateSphere(nullptr, 1.0);
   expectError([&] { responder.addBarrier(sphere); }, "given as a scene");
   expectError([&] { responder.addBarrier(sphere); }, "is a sphere");

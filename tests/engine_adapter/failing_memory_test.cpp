@@ -1,9 +1,8 @@
 // What set-up calls leave behind: nothing if memory runs out in one of them, wherever that is, and
-// nothing once all is removed. A program of its own, because it replaces operator new.
+// nothing once all is removed.
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <functional>
 #include <new>
 #include <optional>
@@ -16,40 +15,9 @@
 #include "bumper/engine_adapter/responder.h"
 #include "bumper/response/error.h"
 #include "bumper/scenes/paper_scenes.h"
+#include "failing_new.h"
 #include "ode_world.h"
 #include "roadside.h"
-
-namespace {
-
-long live = 0;           // allocations that have not been freed
-long untilFailure = -1;  // allocations that succeed; negative: all do
-bool failsOnce = true;
-
-void* allocate(std::size_t size) {
-  if (untilFailure == 0) {
-    if (failsOnce) untilFailure = -1;
-    throw std::bad_alloc();
-  }
-  if (untilFailure > 0) --untilFailure;
-  void* memory = std::malloc(size);
-  if (memory == nullptr) throw std::bad_alloc();
-  ++live;
-  return memory;
-}
-
-void release(void* memory) {
-  if (memory != nullptr) --live;
-  std::free(memory);
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return allocate(size); }
-void* operator new[](std::size_t size) { return allocate(size); }
-void operator delete(void* memory) noexcept { release(memory); }
-void operator delete[](void* memory) noexcept { release(memory); }
-void operator delete(void* memory, std::size_t /*size*/) noexcept { release(memory); }
-void operator delete[](void* memory, std::size_t /*size*/) noexcept { release(memory); }
 
 namespace bumper::tests {
 namespace {
@@ -216,6 +184,13 @@ TEST(FailingMemory, AddingASceneIsAllOrNothing) {
 TEST(FailingMemory, AddingAGeomIsAllOrNothing) {
   expectAllOrNothing(
       [](Situation& situation) { situation.responder.addBarrier(situation.box.geom); });
+}
+
+TEST(FailingMemory, AddingASpaceIsAllOrNothing) {
+  BarrierOptions options{.name = "a name that is long enough to be on the heap"};
+  options.walls.scenery = "a pattern that is long enough to be on the heap .*";
+  expectAllOrNothing(
+      [&](Situation& situation) { situation.responder.addBarriers(situation.ode.space, options); });
 }
 
 TEST(FailingMemory, AddingAVehicleIsAllOrNothing) {

@@ -565,6 +565,21 @@ TEST(Vehicles, TwoHostsAgree) {
   }
 }
 
+// A recording takes each vehicle's impacts in the order of their times.
+TEST(Vehicles, EventsOfAStepAreInTheOrderOfTime) {
+  CarPark park;
+  park.responder.addBarrier(straightWall({0.0, 50.0}, {0.0, -50.0}, 2.0),
+                            {.space = park.ode.space});
+  for (int i = 0; i < 6; ++i) park.add({-3.0 - 4.75 * i, 0.1 * (i % 3)}, 0.0, {25.0, 0.0});
+  int mixed = 0;
+  park.run(1.0, 0.02, [&](std::span<const ImpactEvent> events) {
+    EXPECT_TRUE(std::ranges::is_sorted(events, {}, &ImpactEvent::time));
+    const auto hasWall = [](const ImpactEvent& event) { return event.otherVehicle.empty(); };
+    mixed += std::ranges::any_of(events, hasWall) && !std::ranges::all_of(events, hasWall) ? 1 : 0;
+  });
+  EXPECT_GE(mixed, 1);
+}
+
 TEST(Vehicles, APileUpComesToRestInOrder) {
   CarPark park;
   park.responder.addBarrier(straightWall({0.0, 500.0}, {0.0, -500.0}, 2.0),

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
@@ -63,7 +64,14 @@ ImpactEvent awkwardEvent() {
   event.speedAfter = 25.1;
   event.energyAsked = 0.9;
   event.energyRatio = notANumber;
+  event.velocityBefore = {1.0 / 11.0, -2.0 / 11.0, 4.0 / 11.0};
   event.velocityAfter = {1.0 / 9.0, -2.0 / 9.0, 4.0 / 9.0};
+  event.otherVehicle = "lorry, \"blue\"";
+  event.otherArm = {-2.0 / 13.0, 0.9};
+  event.otherVelocityBefore = {1.0 / 17.0, -2.0 / 17.0, 4.0 / 17.0};
+  event.otherVelocityAfter = {1.0 / 19.0, -2.0 / 19.0, 4.0 / 19.0};
+  event.otherYawRateBefore = -1.0 / 23.0;
+  event.otherYawRateAfter = notANumber;
   event.energyLost = 1e5 / 7.0;
   event.duration = 0.7 / 3.0;
   event.outcome = EnergyOutcome::limited_by_friction;
@@ -121,7 +129,21 @@ TEST(CsvExport, eventsReadBackExactly) {
       {"energy_ratio", ""},  // NaN
       {"energy_lost_J", event.energyLost},
       {"outcome", "limited_by_friction"},
-      {"regime", "reverse_slip"}};
+      {"regime", "reverse_slip"},
+      {"velocity_before_x_mps", event.velocityBefore.x()},
+      {"velocity_before_y_mps", event.velocityBefore.y()},
+      {"velocity_before_z_mps", event.velocityBefore.z()},
+      {"other_vehicle", std::string(event.otherVehicle)},
+      {"other_arm_x_m", event.otherArm.x()},
+      {"other_arm_y_m", event.otherArm.y()},
+      {"other_velocity_before_x_mps", event.otherVelocityBefore.x()},
+      {"other_velocity_before_y_mps", event.otherVelocityBefore.y()},
+      {"other_velocity_before_z_mps", event.otherVelocityBefore.z()},
+      {"other_velocity_after_x_mps", event.otherVelocityAfter.x()},
+      {"other_velocity_after_y_mps", event.otherVelocityAfter.y()},
+      {"other_velocity_after_z_mps", event.otherVelocityAfter.z()},
+      {"other_yaw_rate_before_rps", event.otherYawRateBefore},
+      {"other_yaw_rate_after_rps", ""}};  // NaN
   ASSERT_EQ(rows[0].size(), columns.size());
   ASSERT_EQ(rows[1].size(), columns.size());
   for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -136,6 +158,22 @@ TEST(CsvExport, eventsReadBackExactly) {
     } else {
       EXPECT_EQ(rows[1][k], std::get<std::string>(value)) << name;
     }
+  }
+}
+
+TEST(CsvExport, thereIsNoOtherVehicleInAWallsImpact) {
+  const TemporaryFolder folder;
+  Recording run;
+  ImpactEvent event = awkwardEvent();
+  event.otherVehicle = "";
+  run.addVehicle(std::string(event.vehicle), testing::saloon());
+  run.addImpact(event);
+  writeCsv(run, folder.path());
+  const auto rows = parseCsv(readText(folder.path() / "events.csv"));
+  const auto first = std::find(rows[0].begin(), rows[0].end(), "other_vehicle") - rows[0].begin();
+  ASSERT_EQ(rows[1].size(), static_cast<std::size_t>(first) + 11U);
+  for (auto k = static_cast<std::size_t>(first); k < rows[1].size(); ++k) {
+    EXPECT_EQ(rows[1][k], "") << rows[0][k];
   }
 }
 

@@ -96,6 +96,12 @@ void expectSame(const ImpactEvent& actual, const ImpactEvent& expected) {
   expectSame(actual.yawRateAfter, expected.yawRateAfter, "yaw rate after");
   expectSame(actual.speedBefore, expected.speedBefore, "speed before");
   expectSame(actual.speedAfter, expected.speedAfter, "speed after");
+  expectSameVector(actual.velocityBefore, expected.velocityBefore, "velocity before");
+  expectSameVector(actual.otherArm, expected.otherArm, "other arm");
+  expectSameVector(actual.otherVelocityBefore, expected.otherVelocityBefore, "other before");
+  expectSameVector(actual.otherVelocityAfter, expected.otherVelocityAfter, "other after");
+  expectSame(actual.otherYawRateBefore, expected.otherYawRateBefore, "other yaw rate before");
+  expectSame(actual.otherYawRateAfter, expected.otherYawRateAfter, "other yaw rate after");
   expectSameVector(actual.velocityAfter, expected.velocityAfter, "velocity after");
   expectSame(actual.energyAsked, expected.energyAsked, "energy asked");
   expectSame(actual.energyRatio, expected.energyRatio, "energy ratio");
@@ -174,7 +180,14 @@ ImpactEvent anyImpact(double time, std::string_view vehicle, AnyNumbers& numbers
   event.vehicle = vehicle;
   event.barrier = "rail, \"north\"\n\t\\ \u00e4";
   event.triangle = numbers.of({-1, 0, 2147483647});
-  event.otherVehicle = "lorry, \"south\"";
+  if (numbers.of({true, false})) {
+    event.otherVehicle = "lorry, \"south\"";
+    event.otherArm = {numbers.any(), numbers.any()};
+    event.otherVelocityBefore = {numbers.any(), numbers.any(), numbers.any()};
+    event.otherVelocityAfter = {numbers.any(), numbers.any(), numbers.any()};
+    event.otherYawRateBefore = numbers.any();
+    event.otherYawRateAfter = numbers.any();
+  }
   event.material = "";
   event.contact = {numbers(), numbers(), numbers()};
   event.normal = Eigen::Vector3d(std::sin(time), std::cos(time), 0.1).normalized();
@@ -189,6 +202,7 @@ ImpactEvent anyImpact(double time, std::string_view vehicle, AnyNumbers& numbers
   event.yawRateAfter = numbers();
   event.speedBefore = numbers();
   event.speedAfter = numbers();
+  event.velocityBefore = {numbers.any(), numbers.any(), numbers.any()};
   event.velocityAfter = {numbers(), numbers(), numbers()};
   for (double* number : {&event.approachSpeed, &event.restitution, &event.friction,
                          &event.impulseRatio, &event.criticalImpulseRatio, &event.energyAsked,
@@ -481,6 +495,77 @@ TEST(RecordingFile, tellsFileAndLineOfADefect) {
     writeText(file, damaged);
     EXPECT_THAT(messageOf([&] { readRecording(file); }),
                 AllOf(HasSubstr("run.jsonl, line 4: "), HasSubstr(words)));
+  }
+}
+
+/// An impact as it was written before recordings had two parties, and a day later, when they named
+/// the other vehicle.
+std::string oldImpact(const std::string& other) {
+  return R"({"kind":"impact","time":0.25,"phase":"impact","vehicle":"car","barrier":"rail",)"
+         R"("material":"steel","law":"restitution","regime":"sliding","outcome":"not_asked",)" +
+         other +
+         R"("triangle":7,"contact":[1,2,0.5],"normal":[0,1,0],"arm":[2,-0.8],)"
+         R"("velocityAfter":[20,1,0],"angles":{"contactVelocity":0.1,"centreVelocity":0.2,)"
+         R"("heading":0.3},"approachSpeed":4,"restitution":0.1,"friction":0.3,)"
+         R"("impulseNormal":5000,"impulseTangent":-1500,"impulseRatio":-0.3,)"
+         R"("criticalImpulseRatio":0.6,"deltaV":4.2,"yawRateBefore":0,"yawRateAfter":1,)"
+         R"("speedBefore":21,"speedAfter":20.02,"energyAsked":null,"energyRatio":0.9,)"
+         R"("energyLost":1000,"duration":0})";
+}
+
+/// A recording with a car and these lines.
+std::string textWith(const std::string& lines) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "run.jsonl";
+  RecordingWriter writer(file);
+  writer.addVehicle("car", saloon());
+  writer.flush();
+  return readText(file) + lines;
+}
+
+TEST(RecordingFile, impactsOfEarlierFilesAreRead) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "run.jsonl";
+  writeText(file, textWith(oldImpact("") + '\n' + oldImpact(R"("otherVehicle":"van",)") + '\n'));
+  const Recording run = readRecording(file);
+  ASSERT_EQ(run.impacts().size(), 2U);
+  const ImpactEvent wall = run.impacts()[0].event();
+  EXPECT_EQ(wall.barrier, "rail");
+  EXPECT_EQ(wall.impulseTangent, -1500.0);
+  EXPECT_EQ(wall.velocityAfter.x(), 20.0);
+  EXPECT_TRUE(wall.velocityBefore.array().isNaN().all()) << "not known";
+  EXPECT_EQ(wall.otherVehicle, "");
+  EXPECT_TRUE(wall.otherArm.isZero()) << "there is none";
+  const ImpactEvent pair = run.impacts()[1].event();
+  EXPECT_EQ(pair.otherVehicle, "van");
+  EXPECT_TRUE(pair.otherArm.array().isNaN().all());
+  EXPECT_TRUE(pair.otherVelocityBefore.array().isNaN().all());
+  EXPECT_TRUE(pair.otherVelocityAfter.array().isNaN().all());
+  EXPECT_TRUE(std::isnan(pair.otherYawRateBefore) && std::isnan(pair.otherYawRateAfter));
+  // It is written on as it is known.
+  writeRecording(run, file, {});
+  expectSame(readRecording(file), run);
+}
+
+TEST(RecordingFile, tellsWhatIsWrongWithTheOtherVehicle) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "run.jsonl";
+  const std::vector<std::pair<std::string, std::string>> defects = {
+      {R"("otherVehicle":7,)", "otherVehicle is no name"},
+      {R"("otherVehicle":"car",)", "itself"},
+      {R"("otherVehicle":"van","otherArm":[1],)", "otherArm is no list of 2 numbers"},
+      {R"("otherVehicle":"van","otherArm":{"x":1,"y":2},)", "otherArm is no list of 2 numbers"},
+      {R"("otherVehicle":"van","otherVelocityBefore":[1,2],)",
+       "otherVelocityBefore is no list of 3 numbers"},
+      {R"("otherVehicle":"van","otherVelocityAfter":"fast",)",
+       "otherVelocityAfter is no list of 3 numbers"},
+      {R"("otherVehicle":"van","otherYawRateAfter":"fast",)", "number"},
+      {R"("otherVehicle":"van","otherYawRateBefore":1e999,)", "overflow"},
+      {R"("velocityBefore":[1,2,3,4],)", "velocityBefore is no list of 3 numbers"}};
+  for (const auto& [part, words] : defects) {
+    writeText(file, textWith(oldImpact(part) + '\n'));
+    EXPECT_THAT(messageOf([&] { readRecording(file); }),
+                AllOf(HasSubstr("run.jsonl, line 2: "), HasSubstr(words)));
   }
 }
 

@@ -131,6 +131,14 @@ TEST(Recording, rejectsImpactsThatCannotBe) {
       {"speed", [](ImpactEvent& event) { event.speedAfter = infinite; }},
       {"yaw rate", [](ImpactEvent& event) { event.yawRateBefore = notANumber; }},
       {"velocity after", [](ImpactEvent& event) { event.velocityAfter.z() = notANumber; }},
+      {"velocity before", [](ImpactEvent& event) { event.velocityBefore.x() = infinite; }},
+      {"other vehicle is itself", [](ImpactEvent& event) { event.otherVehicle = "car"; }},
+      {"other vehicle's arm", [](ImpactEvent& event) { event.otherArm.y() = -infinite; }},
+      {"other vehicle's velocity before",
+       [](ImpactEvent& event) { event.otherVelocityBefore.z() = infinite; }},
+      {"other vehicle's velocity after",
+       [](ImpactEvent& event) { event.otherVelocityAfter.x() = infinite; }},
+      {"other vehicle's yaw rate", [](ImpactEvent& event) { event.otherYawRateAfter = infinite; }},
       {"goes back", [](ImpactEvent& event) { event.time = 1.0; }},
       {"not one of its vehicles", [](ImpactEvent& event) { event.vehicle = "bus"; }}};
   Recording run;
@@ -138,6 +146,8 @@ TEST(Recording, rejectsImpactsThatCannotBe) {
   run.addVehicle("van", saloon());
   ImpactEvent good = eventOf("car");
   good.time = 2.0;
+  good.otherVehicle = "one that nobody recorded";
+  good.otherArm.x() = good.otherYawRateBefore = notANumber;
   run.addImpact(good);
   for (const auto& [word, spoil] : defects) {
     ImpactEvent bad = good;
@@ -150,6 +160,52 @@ TEST(Recording, rejectsImpactsThatCannotBe) {
   other.time = 1.0;
   run.addImpact(other);
   EXPECT_EQ(run.impacts().size(), 2U);
+}
+
+TEST(Recording, theOtherVehicleSeesTheSameImpact) {
+  ImpactEvent event = eventOf("car");
+  event.otherVehicle = "van";
+  event.contact = {1.0, 2.0, 0.5};
+  event.arm = {2.0, 0.5};
+  event.otherArm = {-1.0, 0.7};
+  event.impulseNormal = 6000.0;
+  event.impulseTangent = -1200.0;
+  // Of 1500 kg and 2000 kg, along (−tangent, normal) = (1200, 6000) N s.
+  event.velocityBefore = {10.0, -3.0, 0.0};
+  event.velocityAfter = {10.8, 1.0, 0.0};
+  event.otherVelocityBefore = {3.0, 4.0, 0.0};
+  event.otherVelocityAfter = {2.4, 1.0, 0.0};
+  event.deltaV = std::hypot(0.8, 4.0);
+  event.speedBefore = std::hypot(10.0, 3.0);
+  event.speedAfter = std::hypot(10.8, 1.0);
+  event.yawRateAfter = 1.0;
+  event.otherYawRateAfter = -2.0;
+  EXPECT_EQ(asSeenBy("car", event)->vehicle, "car");
+  EXPECT_FALSE(asSeenBy("bus", event));
+  EXPECT_FALSE(asSeenBy("", eventOf("car"))) << "a barrier sees nothing";
+  const ImpactEvent van = asSeenBy("van", event).value();
+  EXPECT_EQ(van.vehicle, "van");
+  EXPECT_EQ(van.otherVehicle, "car");
+  EXPECT_EQ(van.contact, event.contact);
+  EXPECT_EQ(van.arm, event.otherArm);
+  EXPECT_EQ(van.otherArm, event.arm);
+  EXPECT_DOUBLE_EQ(van.deltaV, std::hypot(0.6, 3.0));
+  EXPECT_DOUBLE_EQ(van.speedBefore, 5.0);
+  EXPECT_DOUBLE_EQ(van.speedAfter, std::hypot(2.4, 1.0));
+  EXPECT_EQ(van.yawRateAfter, -2.0);
+  EXPECT_EQ(van.otherYawRateAfter, 1.0);
+  // The impulse in the world is the opposite one.
+  const auto impulseOf = [](const ImpactEvent& e) {
+    return Eigen::Vector3d(e.impulseNormal * e.normal +
+                           e.impulseTangent * Eigen::Vector3d::UnitZ().cross(e.normal));
+  };
+  EXPECT_TRUE(impulseOf(van).isApprox(-impulseOf(event), 1e-15));
+  EXPECT_TRUE(impulseOf(van).isApprox(2000.0 * (van.velocityAfter - van.velocityBefore), 1e-12));
+  const ImpactEvent back = asSeenBy("car", van).value();
+  EXPECT_EQ(back.arm, event.arm);
+  EXPECT_EQ(back.normal, event.normal);
+  EXPECT_EQ(back.deltaV, event.deltaV);
+  EXPECT_EQ(back.velocityBefore, event.velocityBefore);
 }
 
 TEST(Recording, poseBetweenTwoPosesLiesOnTheWay) {

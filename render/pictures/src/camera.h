@@ -3,11 +3,13 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "bumper/base/api.h"
 #include "bumper/render/snapshot.h"
 #include "run_excerpt.h"
 #include "sight_lines.h"
 
-namespace bumper::drawing {
+namespace BUMPER_INTERNAL bumper {
+namespace drawing {
 
 /// From the world to the picture.
 struct Camera {
@@ -44,4 +46,5 @@ Eigen::Vector3d eyeOf(const OrbitCamera& orbit, const Eigen::Vector3d& centre);
 Camera cameraFor(const SightLines& scene, const Recording& recording, const RunExcerpt& run,
                  const SnapshotOptions& options);
 
-}  // namespace bumper::drawing
+}  // namespace drawing
+}  // namespace bumper

@@ -7,20 +7,21 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include "bumper/response/contact_point.h"
-#include "bumper/response/error.h"
-#include "bumper/scenes/walls.h"
+#include "impact_situation.h"
 #include "ink.h"
 #include "offscreen_context.h"
 #include "pen.h"
 #include "rasteriser.h"
+#include "run_excerpt.h"
 #include "snapshot_input.h"
 #include "text.h"
 #include "text_renderer.h"
+#include "vehicle_shape.h"
 
 namespace bumper {
 
@@ -29,7 +30,10 @@ namespace {
 using drawing::Colour;
 using drawing::ink;
 using drawing::mark;
+using drawing::Party;
 using drawing::Pen;
+using drawing::Situation;
+using drawing::touching;
 using Eigen::Vector2d;
 using Box = Eigen::AlignedBox2d;
 
@@ -37,79 +41,10 @@ const Colour softInk(0.36F, 0.38F, 0.42F, 1.0F);
 const Colour ground(0.955F, 0.955F, 0.945F, 1.0F);
 const Colour paper(1.0F, 1.0F, 1.0F, 1.0F);
 const Colour wallColour(0.55F, 0.42F, 0.30F, 1.0F);
-const Colour bodyColour(0.90F, 0.36F, 0.34F, 0.28F);
-const Colour outlineColour(0.74F, 0.10F, 0.10F, 1.0F);
 const Colour normalColour(0.05F, 0.40F, 0.72F, 1.0F);
 const Colour armColour(0.42F, 0.20F, 0.62F, 1.0F);
 const Colour beforeColour(0.93F, 0.53F, 0.03F, 1.0F);
 const Colour afterColour(0.02F, 0.52F, 0.32F, 1.0F);
-
-/// Points of the outline and the wall that are nearer together count as one, m.
-constexpr double touching = 0.005;
-
-/// What is known of the impact, in plan and world axes.
-struct Situation {
-  ImpactEvent event;
-  VehicleParameters vehicle;
-  Vector2d centre;   ///< mass centre
-  Vector2d forward;  ///< i
-  Vector2d left;     ///< j
-  Vector2d contact;
-  Vector2d normal;
-  Vector2d tangent;
-  Vector2d before;  ///< velocity, m/s
-  Vector2d after;
-  Vector2d impulse;  ///< on the vehicle, N s
-  std::vector<Vector2d> corners;
-  Vector2d a;
-  Vector2d b;
-  std::vector<std::pair<Vector2d, Vector2d>> walls;  ///< as lines
-};
-
-Situation situationOf(const Scene& scene, const Recording& recording, std::size_t impact) {
-  if (impact >= recording.impacts().size())
-    throw Error("a close-up of impact " + std::to_string(impact) + ": the recording has " +
-                std::to_string(recording.impacts().size()));
-  Situation s;
-  s.event = recording.impacts()[impact].event();
-  const auto vehicle =
-      std::ranges::find(recording.vehicles(), s.event.vehicle, &RecordedVehicle::name);
-  const auto pose = poseAt(*vehicle, s.event.time);
-  if (!pose)
-    throw Error("a close-up of impact " + std::to_string(impact) + ": vehicle '" + vehicle->name +
-                "' was not recorded at " + drawing::fixed(s.event.time, 3) + " s");
-  s.vehicle = vehicle->parameters;
-  const double yaw = heading(pose->orientation);
-  s.forward = {std::cos(yaw), std::sin(yaw)};
-  s.left = {-s.forward.y(), s.forward.x()};
-  s.contact = s.event.contact.head<2>();
-  s.centre = s.contact - s.event.arm.x() * s.forward - s.event.arm.y() * s.left;
-  s.normal = Vector2d(s.event.normal.head<2>()).stableNormalized();
-  s.tangent = {-s.normal.y(), s.normal.x()};
-  s.impulse = s.event.impulseNormal * s.normal + s.event.impulseTangent * s.tangent;
-  s.after = s.event.velocityAfter.head<2>();
-  s.before = s.after - s.impulse / s.vehicle.mass;
-
-  const Outline outline(s.vehicle);
-  for (const Vector2d& corner : outline.corners())
-    s.corners.emplace_back(s.centre + corner.x() * s.forward + corner.y() * s.left);
-  // The wall's line through the contact point, as far as the outline can reach.
-  Segment line;
-  const double reach = 2.0 * (outline.front + outline.rear + outline.halfWidth);
-  line.start = s.contact - reach * s.tangent;
-  line.end = s.contact + reach * s.tangent;
-  line.normal = s.normal;
-  const Interference inside = interference(outline, {s.centre, yaw}, line);
-  const bool apart = !inside.empty && inside.length() > touching;
-  s.a = apart ? inside.from : s.contact;
-  s.b = apart ? inside.to : s.contact;
-
-  for (const Wall& wall : selectWalls(scene).walls) {
-    for (std::size_t k = 0; k < 3; ++k)
-      s.walls.emplace_back(wall.corners[k].head<2>(), wall.corners[(k + 1) % 3].head<2>());
-  }
-  return s;
-}
 
 /// A part of the picture that shows a part of the ground plan, and nothing beyond its frame.
 class Plan {
@@ -302,7 +237,8 @@ std::vector<std::pair<double, double>> surfaceOf(const Situation& s) {
 void addWalls(const Plan& plan, const Situation& s) {
   // Which side of the surface is the wall's.
   const Vector2d back = -0.3 * s.normal;
-  for (const auto& [from, to] : surfaceOf(s)) {
+  const bool isWall = s.vehicle.event.otherVehicle.empty();
+  for (const auto& [from, to] : isWall ? surfaceOf(s) : std::vector<std::pair<double, double>>()) {
     const Vector2d begin = s.contact + from * s.tangent;
     const Vector2d end = s.contact + to * s.tangent;
     plan.fill({begin, end, end + back, begin + back},
@@ -311,41 +247,67 @@ void addWalls(const Plan& plan, const Situation& s) {
   for (const auto& [from, to] : s.walls) plan.line(from, to, 1.6, wallColour);
 }
 
-void addOutline(const Plan& plan, const Situation& s) {
-  plan.fill(s.corners, bodyColour);
-  for (std::size_t k = 0; k < s.corners.size(); ++k)
-    plan.line(s.corners[k], s.corners[(k + 1) % s.corners.size()], 1.1, outlineColour);
+/// The vehicle's own paint, darker for a line.
+Colour lineColour(const Party& party) {
+  const Eigen::Vector3f paint = 0.86F * drawing::paintOf(party.index);
+  return {paint.x(), paint.y(), paint.z(), 1.0F};
+}
+
+void addOutline(const Plan& plan, const Party& p) {
+  const Eigen::Vector3f paint =
+      0.75F * drawing::paintOf(p.index) + Eigen::Vector3f::Constant(0.25F);
+  plan.fill(p.corners, Colour(paint.x(), paint.y(), paint.z(), 0.28F));
+  for (std::size_t k = 0; k < p.corners.size(); ++k)
+    plan.line(p.corners[k], p.corners[(k + 1) % p.corners.size()], 1.1, lineColour(p));
   // The front, as a pointer to it.
-  const Vector2d nose = s.centre + s.vehicle.massCentreToFront * s.forward;
-  const double step = 0.22 * s.vehicle.width;
-  plan.line(nose - step * s.forward + 1.6 * step * s.left, nose, 0.8, outlineColour);
-  plan.line(nose - step * s.forward - 1.6 * step * s.left, nose, 0.8, outlineColour);
+  const Vector2d nose = p.centre + p.vehicle.massCentreToFront * p.forward;
+  const double step = 0.22 * p.vehicle.width;
+  plan.line(nose - step * p.forward + 1.6 * step * p.left, nose, 0.8, lineColour(p));
+  plan.line(nose - step * p.forward - 1.6 * step * p.left, nose, 0.8, lineColour(p));
+}
+
+void addOutlines(const Plan& plan, const Situation& s) {
+  addOutline(plan, s.vehicle);
+  if (s.other) addOutline(plan, *s.other);
+  plan.fill(s.overlap, Colour(mark.x(), mark.y(), mark.z(), 0.45F));
+}
+
+/// Whose outline is whose.
+void addNames(Plan& plan, const Situation& s) {
+  if (!s.other) return;
+  for (const Party* p : {&s.vehicle, &*s.other}) {
+    const Vector2d rear = p->centre - 0.8 * p->vehicle.massCentreToRear * p->forward;
+    plan.label(rear, Vector2d::Zero(), -12.0 * p->forward, std::string(p->event.vehicle),
+               lineColour(*p));
+  }
 }
 
 void addArms(Plan& plan, const Situation& s) {
   const Vector2d none = Vector2d::Zero();
-  const Vector2d arm = s.contact - s.centre;
+  const Vector2d centre = s.vehicle.centre;
+  const Vector2d arm = s.contact - centre;
   const double x = arm.dot(s.normal);
   const double y = arm.dot(s.tangent);
-  const Vector2d foot = s.centre + y * s.tangent;
+  const Vector2d foot = centre + y * s.tangent;
   plan.dashes(s.contact, s.contact + (std::abs(x) + 0.8) * s.normal, 0.7, normalColour);
-  plan.line(s.centre, foot, 1.2, armColour);
+  plan.line(centre, foot, 1.2, armColour);
   plan.line(foot, s.contact, 1.2, armColour);
-  plan.keepClear(plan.at(s.centre), plan.at(foot));
+  plan.keepClear(plan.at(centre), plan.at(foot));
   plan.keepClear(plan.at(foot), plan.at(s.contact));
-  plan.label(0.5 * (s.centre + foot), none, 10.0 * s.normal, "y = " + drawing::fixed(y, 2) + " m",
+  plan.label(0.5 * (centre + foot), none, 10.0 * s.normal, "y = " + drawing::fixed(y, 2) + " m",
              armColour);
   plan.label(0.5 * (foot + s.contact), none, (y < 0.0 ? -10.0 : 10.0) * s.tangent,
              "x = " + drawing::fixed(x, 2) + " m", armColour);
+  if (s.other) plan.dashes(s.other->centre, s.contact, 1.0, armColour);
 }
 
-void addMotion(Plan& plan, const Situation& s) {
+/// `fastest` has an arrow of full length.
+void addMotion(Plan& plan, const Party& s, double fastest) {
   constexpr double longest = 62.0;
-  const double fastest = std::max({s.before.norm(), s.after.norm(), 1e-6});
   for (const auto& [velocity, colour, name] :
        {std::tuple{s.before, beforeColour, "before"}, {s.after, afterColour, "after"}}) {
     const Vector2d way = longest / fastest * velocity;
-    if (way.norm() < 1.0) continue;
+    if (!(way.norm() >= 1.0)) continue;
     plan.arrow(s.centre, way, 1.9, colour);
     plan.label(s.centre, way, 11.0 * way.normalized(),
                std::string(name) + " " + drawing::fixed(velocity.norm(), 1) + " m/s", colour);
@@ -370,18 +332,26 @@ void addContact(Plan& plan, const Situation& s, bool magnified) {
     const bool apart = (s.a - s.b).norm() > touching;
     for (const auto& [point, name, side] :
          {std::tuple{s.a, apart ? "a" : "a = b", -1.0}, {s.b, "b", 1.0}}) {
-      if (!apart && side > 0.0) continue;
+      if (!s.vehicle.event.otherVehicle.empty() || (!apart && side > 0.0)) continue;
       plan.disc(point, 2.6, ink);
       plan.label(point, none, 9.0 * (side * s.tangent - s.normal), name, ink);
     }
     plan.disc(s.contact, 2.4, paper);
     plan.disc(s.contact, 1.9, mark);
-    plan.label(s.contact, none, -22.0 * s.normal, apart ? "midpoint" : "contact", mark);
+    const Vector2d beside = s.other ? Vector2d(-16.0 * (s.normal + s.tangent)) : -22.0 * s.normal;
+    plan.label(s.contact, none, beside, apart ? "midpoint" : "contact", mark);
   } else {
     if (s.impulse.norm() > 1e-9) {
       const Vector2d push = 44.0 * s.impulse.normalized();
       plan.arrow(s.contact, push, 2.2, mark);
-      plan.label(s.contact, push, 14.0 * (s.tangent + 0.3 * s.normal), "impulse", mark);
+      const std::string_view name = s.vehicle.event.vehicle;
+      plan.label(s.contact, push, 14.0 * (s.tangent + 0.3 * s.normal),
+                 s.other ? "impulse on " + std::string(name) : "impulse", mark);
+      if (s.other) {
+        plan.arrow(s.contact, -push, 2.2, mark);
+        plan.label(s.contact, -push, -14.0 * (s.tangent + 0.3 * s.normal),
+                   "on " + std::string(s.other->event.vehicle), mark);
+      }
     }
     plan.disc(s.contact, 3.2, paper);
     plan.disc(s.contact, 2.4, mark);
@@ -396,25 +366,60 @@ struct Row {
 std::vector<Row> rowsOf(const Situation& s) {
   using drawing::fixed;
   constexpr double degree = std::numbers::pi / 180.0;
-  const ImpactEvent& e = s.event;
+  const ImpactEvent& e = s.vehicle.event;
   const auto known = [](double value, int decimals, const char* unit) {
     return std::isfinite(value) ? fixed(value, decimals) + unit : std::string("–");
   };
-  return {{"time", known(e.time, 3, " s")},
-          {"Δv", known(e.deltaV, 2, " m/s")},
-          {"approach speed", known(e.approachSpeed, 2, " m/s")},
-          {"angle of attack", known(e.angles.contactVelocity / degree, 1, "°")},
-          {"speed before", known(e.speedBefore, 2, " m/s")},
-          {"speed after", known(e.speedAfter, 2, " m/s")},
-          {"yaw rate before", known(e.yawRateBefore / degree, 1, " °/s")},
-          {"yaw rate after", known(e.yawRateAfter / degree, 1, " °/s")},
-          {"impulse along N", known(0.001 * e.impulseNormal, 2, " kN s")},
-          {"impulse along T", known(0.001 * e.impulseTangent, 2, " kN s")},
-          {"restitution e", known(e.restitution, 2, "")},
-          {"friction μ", known(e.friction, 2, "")},
-          {"energy kept", known(100.0 * e.energyRatio, 0, " %")},
-          {"law", std::string(toString(e.law))},
-          {"regime", std::string(toString(e.regime))}};
+  // Of both vehicles, if there are two.
+  const auto both = [&](double ImpactEvent::*value, double factor, int decimals, const char* unit) {
+    if (!s.other) return known(factor * (e.*value), decimals, unit);
+    return known(factor * (e.*value), decimals, "") + " | " +
+           known(factor * (s.other->event.*value), decimals, unit);
+  };
+  return {
+      {"time", known(e.time, 3, " s")},
+      {"Δv", both(&ImpactEvent::deltaV, 1.0, 2, " m/s")},
+      {"approach speed", known(e.approachSpeed, 2, " m/s")},
+      {"angle of attack", known(e.angles.contactVelocity / degree, 1, "°")},
+      {"speed before", both(&ImpactEvent::speedBefore, 1.0, 2, " m/s")},
+      {"speed after", both(&ImpactEvent::speedAfter, 1.0, 2, " m/s")},
+      {"yaw rate before", both(&ImpactEvent::yawRateBefore, 1.0 / degree, s.other ? 0 : 1, " °/s")},
+      {"yaw rate after", both(&ImpactEvent::yawRateAfter, 1.0 / degree, s.other ? 0 : 1, " °/s")},
+      {"impulse along N", known(0.001 * e.impulseNormal, 2, " kN s")},
+      {"impulse along T", known(0.001 * e.impulseTangent, 2, " kN s")},
+      {"restitution e", known(e.restitution, 2, "")},
+      {"friction μ", known(e.friction, 2, "")},
+      {"energy kept", known(100.0 * e.energyRatio, 0, " %")},
+      {"law", std::string(toString(e.law))},
+      {"regime", std::string(toString(e.regime))}};
+}
+
+double lengthOf(const Party& party) {
+  return party.vehicle.massCentreToFront + party.vehicle.massCentreToRear;
+}
+
+/// What the detail has to show, m.
+double extentOfContact(const Situation& s) {
+  Box box(s.a);
+  box.extend(s.b);
+  for (const Vector2d& corner : s.overlap) box.extend(corner);
+  return box.diagonal().norm();
+}
+
+/// The middle of the plan and its pixels per metre: the outlines, with room for arrows around them.
+std::pair<Vector2d, double> framing(const Situation& s, const Box& frame) {
+  if (!s.other) {
+    const Vector2d middle = 0.5 * (s.vehicle.corners[0] + s.vehicle.corners[2]);
+    return {0.6 * middle + 0.4 * s.contact,
+            frame.sizes().minCoeff() / (1.75 * lengthOf(s.vehicle))};
+  }
+  Box box;
+  for (const Party* party : {&s.vehicle, &*s.other}) {
+    for (const Vector2d& corner : party->corners) box.extend(corner);
+  }
+  const double margin = 0.35 * std::max(lengthOf(s.vehicle), lengthOf(*s.other));
+  const Vector2d needed = box.sizes().array() + 2.0 * margin;
+  return {box.center(), frame.sizes().cwiseQuotient(needed).minCoeff()};
 }
 
 void paint(const Situation& s, std::size_t number, const CloseUpOptions& options, Pen& pen) {
@@ -425,16 +430,21 @@ void paint(const Situation& s, std::size_t number, const CloseUpOptions& options
   const Box main(Vector2d::Zero(), Vector2d(options.width - column, options.height));
   pen.box(all, ground, ground);
 
-  // The outline, with room for arrows around it.
-  const double length = s.vehicle.massCentreToFront + s.vehicle.massCentreToRear;
-  const Vector2d middle = 0.5 * (s.corners[0] + s.corners[2]);
-  const double scale = main.sizes().minCoeff() / (1.75 * length);
-  Plan plan(pen, main, 0.6 * middle + 0.4 * s.contact, scale, unit);
+  const auto [centre, scale] = framing(s, main);
+  Plan plan(pen, main, centre, scale, unit);
   addWalls(plan, s);
-  addOutline(plan, s);
+  addOutlines(plan, s);
   addArms(plan, s);
   addContact(plan, s, false);
-  addMotion(plan, s);
+  double fastest = std::max({s.vehicle.before.norm(), s.vehicle.after.norm(), 1e-6});
+  // Whatever is not known is not the larger one.
+  if (s.other) {
+    for (const Vector2d& velocity : {s.other->before, s.other->after})
+      if (velocity.norm() > fastest) fastest = velocity.norm();
+    addMotion(plan, *s.other, fastest);
+  }
+  addMotion(plan, s.vehicle, fastest);
+  addNames(plan, s);
   plan.writeLabels();
 
   // The column beside: the magnified contact, and numbers below.
@@ -443,10 +453,10 @@ void paint(const Situation& s, std::size_t number, const CloseUpOptions& options
   const Vector2d corner(main.max().x() + margin, margin);
   const Box frame(corner, Vector2d(corner + Vector2d(side, 0.86 * side)));
   pen.panel(frame, 0.0, ground);
-  const double span = std::clamp(2.2 * (s.a - s.b).norm(), 0.25, 1.5 * length);
+  const double span = std::clamp(2.2 * extentOfContact(s), 0.25, 1.5 * lengthOf(s.vehicle));
   Plan detail(pen, frame, s.contact, frame.sizes().minCoeff() / span, unit);
   addWalls(detail, s);
-  addOutline(detail, s);
+  addOutlines(detail, s);
   addContact(detail, s, true);
   detail.writeLabels();
 
@@ -463,12 +473,13 @@ void paint(const Situation& s, std::size_t number, const CloseUpOptions& options
     top += step;
   }
 
-  const std::string title = "Impact " + std::to_string(number) + ": " +
-                            std::string(s.event.vehicle) + " against " +
-                            std::string(s.event.barrier);
-  const std::string second =
-      drawing::fixed(s.event.time, 3) + " s · Δv " + drawing::fixed(s.event.deltaV, 1) + " m/s" +
-      (s.event.material.empty() ? "" : " · " + std::string(s.event.material));
+  const ImpactEvent& event = s.vehicle.event;
+  const std::string_view against = event.otherVehicle.empty() ? event.barrier : event.otherVehicle;
+  const std::string title = "Impact " + std::to_string(number) + ": " + std::string(event.vehicle) +
+                            " against " + std::string(against);
+  const std::string second = drawing::fixed(event.time, 3) + " s · Δv " +
+                             drawing::deltaVText(event) +
+                             (event.material.empty() ? "" : " · " + std::string(event.material));
   const double wide = std::max(1.5 * drawing::textWidth(title), drawing::textWidth(second));
   pen.panel(
       Box(Vector2d(margin, margin), Vector2d(2.0 * margin + unit * wide, margin + 34.0 * unit)),
@@ -491,7 +502,7 @@ Image impactCloseUp(const Scene& scene, const Recording& recording, std::size_t 
                     const CloseUpOptions& options, OffscreenBackend backend) {
   drawing::checkPixels(options.width, 640, "CloseUpOptions::width");
   drawing::checkPixels(options.height, 360, "CloseUpOptions::height");
-  const Situation situation = situationOf(scene, recording, impact);
+  const Situation situation = drawing::situationOf(scene, recording, impact);
   drawing::Picture picture;
   picture.width = options.width;
   picture.height = options.height;

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "pen.h"
 #include "speed_colours.h"
 #include "text.h"
+#include "vehicle_shape.h"
 
 namespace bumper::drawing {
 
@@ -31,6 +33,8 @@ const Colour white(1.0F, 1.0F, 1.0F, 1.0F);
 constexpr double fullArrow = 34.0;  ///< in the small text's units
 
 constexpr const char* markLegend = "arrow: push of the wall · Δv: change of velocity";
+constexpr const char* pairLegend =
+    "arrows: push of the wall or of each other · Δv: change of velocity";
 
 double overlapArea(const Box& a, const Box& b) {
   const Box common = a.intersection(b);
@@ -47,6 +51,7 @@ struct PlacedMark {
   Vector2d point;
   Vector2d tail;  ///< of the arrow, on the mark's rim
   Vector2d tip;
+  std::optional<std::pair<Vector2d, Vector2d>> opposite;  ///< the other vehicle's arrow
 };
 
 /// What a label may cover if it must, at a price per area.
@@ -98,12 +103,28 @@ class Overlay {
     };
     addLine(title, large_, ink);
     addLine(second, small_, softInk);
-    if (options_.showImpacts && !run_.impacts.empty()) addLine(markLegend, small_, softInk);
+    if (options_.showImpacts && !run_.impacts.empty())
+      addLine(hasPairs(run_) ? pairLegend : markLegend, small_, softInk);
+    const std::vector<Named> names = namesFor(room);
+    const double namesTop = size.y() + 5.0 * small_;
+    if (!names.empty()) {
+      size.y() = namesTop + small_ * capitalHeight;
+      size.x() = std::max(size.x(), names.back().end);
+    }
     const Vector2d corner(margin_, margin_);
     addPanel(Box(corner, Vector2d((corner + size).array() + 2.0 * padding_)));
     for (const Line& line : lines)
       pen_.text(corner + Vector2d(padding_, padding_ + line.top), line.text, line.scale,
                 line.colour);
+    for (const Named& named : names) {
+      Vector2d place = corner + Vector2d(padding_ + named.start, padding_ + namesTop);
+      if (named.paint) {
+        const double side = small_ * capitalHeight;
+        pen_.box(Box(place, Vector2d(place.array() + side)), *named.paint, *named.paint);
+        place.x() += side + nameGap * small_;
+      }
+      pen_.text(place, named.name, small_, softInk);
+    }
   }
 
   void addLegend() {
@@ -192,23 +213,23 @@ class Overlay {
     for (const DrawnImpact& impact : run_.impacts) {
       const auto point = camera_.pixel(impact.event.contact);
       if (!point || !impact.shown) continue;
-      const double share = impact.event.deltaV / std::max(worst->event.deltaV, fullArrowDeltaV);
-      marks.push_back(placeMark(impact, *point, share));
+      marks.push_back(placeMark(impact, *point, std::max(hardness(worst->event), fullArrowDeltaV)));
     }
     for (const PlacedMark& placed : marks) {
       avoided_.push_back(grown(Box(placed.point), markRadius_ + small_));
       if (placed.impact->labelled) {
         Box arrow(placed.point);
+        if (placed.opposite) arrow.extend(placed.opposite->second);
         avoided_.push_back(grown(Box(arrow.extend(placed.tip)), 1.5 * small_));
       }
     }
-    for (const PlacedMark& placed : marks) {
-      if (!placed.impact->labelled) continue;
-      pen_.arrow(placed.tail, placed.tip, 1.8 * small_, white, 0.9 * small_);
-    }
-    for (const PlacedMark& placed : marks) {
-      if (!placed.impact->labelled) continue;
-      pen_.arrow(placed.tail, placed.tip, 1.8 * small_, ink);
+    for (const auto& [colour, rim] : {std::pair{white, 0.9 * small_}, {ink, 0.0}}) {
+      for (const PlacedMark& placed : marks) {
+        if (!placed.impact->labelled) continue;
+        pen_.arrow(placed.tail, placed.tip, 1.8 * small_, colour, rim);
+        if (placed.opposite)
+          pen_.arrow(placed.opposite->first, placed.opposite->second, 1.8 * small_, colour, rim);
+      }
     }
     std::vector<std::optional<Box>> labels;
     for (const PlacedMark& placed : marks) {
@@ -300,10 +321,46 @@ class Overlay {
     if (count == 0) return "";
     double most = 0.0;
     for (const DrawnImpact& impact : run_.impacts)
-      most = impact.shown ? std::max(most, impact.event.deltaV) : most;
+      most = impact.shown ? std::max(most, hardness(impact.event)) : most;
     return (count == 1 ? " · 1 impact: Δv "
                        : " · " + std::to_string(count) + " impacts, hardest: Δv ") +
            fixed(most, 1) + " m/s";
+  }
+
+  /// A vehicle's name in the legend, pixels from the legend's left end.
+  struct Named {
+    std::string name;
+    std::optional<Colour> paint;
+    double start = 0.0;
+    double end = 0.0;
+  };
+  static constexpr double nameGap = 3.0;  ///< units of text
+
+  /// Whose paint is whose, if there are several: as many as have their own and there is room for.
+  [[nodiscard]] std::vector<Named> namesFor(double room) const {
+    if (run_.names.size() < 2) return {};
+    std::vector<Named> names;
+    double start = 0.0;
+    for (std::size_t v = 0; v < run_.names.size(); ++v) {
+      Named next;
+      next.name = run_.names[v];
+      next.start = start;
+      const bool last = v + 1 == run_.names.size();
+      const auto own = options_.vehicleMeshes.find(next.name);
+      const bool isOwn = own != options_.vehicleMeshes.end() && !own->second->meshes.empty();
+      const Eigen::Vector3f paint = isOwn ? own->second->meshes.front().colour : paintOf(v);
+      next.paint = Colour(paint.x(), paint.y(), paint.z(), 1.0F);
+      next.end = start + small_ * (capitalHeight + nameGap + textWidth(next.name));
+      const std::string rest = "and " + std::to_string(run_.names.size() - v) + " more";
+      const double reserved = last ? 0.0 : small_ * (4.0 * nameGap + textWidth(rest));
+      if (v >= paintCount || next.end + reserved > room) {
+        names.push_back({rest, std::nullopt, start, start + small_ * textWidth(rest)});
+        return names;
+      }
+      start = next.end + 3.0 * nameGap * small_;
+      names.push_back(std::move(next));
+    }
+    return names;
   }
 
   [[nodiscard]] static double scaleFor(const std::string& line, double wanted, double room) {
@@ -321,18 +378,34 @@ class Overlay {
     return {camera_.right().dot(direction), -camera_.up().dot(direction)};
   }
 
-  /// With an arrow of a share of the full length.
+  /// A Δv of `full` has an arrow of full length.
   [[nodiscard]] PlacedMark placeMark(const DrawnImpact& impact, const Vector2d& point,
-                                     double share) const {
-    const Vector3d ahead = impact.event.contact + 0.5 * impact.event.normal;
+                                     double full) const {
+    const ImpactEvent& event = impact.event;
+    PlacedMark placed;
+    placed.impact = &impact;
+    placed.point = point;
+    std::tie(placed.tail, placed.tip) =
+        arrowAlong(event.contact, event.normal, point, event.deltaV / full);
+    const auto other = asSeenBy(event.otherVehicle, event);
+    if (other && other->deltaV > 0.0)
+      placed.opposite = arrowAlong(event.contact, other->normal, point, other->deltaV / full);
+    return placed;
+  }
+
+  /// From a mark's rim, of a share of the full length.
+  [[nodiscard]] std::pair<Vector2d, Vector2d> arrowAlong(const Vector3d& place,
+                                                         const Vector3d& direction,
+                                                         const Vector2d& point,
+                                                         double share) const {
+    const Vector3d ahead = place + 0.5 * direction;
     const Vector2d way = camera_.pixel(ahead).value_or(point) - point;
-    if (way.norm() < 1e-9) return {&impact, point, point, point};
+    if (way.norm() < 1e-9) return {point, point};
     // As long as the direction allows: one that points at the camera is short.
-    const double foreshortening =
-        std::min(1.0, way.norm() / (0.5 * camera_.pixelsPerMetre(impact.event.contact)));
+    const double foreshortening = std::min(1.0, way.norm() / (0.5 * camera_.pixelsPerMetre(place)));
     const double length = fullArrow * small_ * share * std::max(0.4, foreshortening);
     const Vector2d tail = point + markRadius_ * way.normalized();
-    return {&impact, point, tail, tail + length * way.normalized()};
+    return {tail, tail + length * way.normalized()};
   }
 
   /// A square around a point of the world, half a side in m, that a label should not cover.
@@ -352,7 +425,7 @@ class Overlay {
   }
 
   [[nodiscard]] static std::string valueOf(const DrawnImpact& impact) {
-    return "Δv " + fixed(impact.event.deltaV, 1) + " m/s";
+    return "Δv " + deltaVText(impact.event);
   }
 
   [[nodiscard]] Vector2d labelSize(const DrawnImpact& impact) const {

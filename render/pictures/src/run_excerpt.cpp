@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "bumper/response/error.h"
+#include "text.h"
 
 namespace bumper::drawing {
 
@@ -103,23 +104,30 @@ Span timeNear(const RecordedVehicle& vehicle, const Eigen::Vector3d& place, doub
   return span;
 }
 
+/// While all that take part in an impact are near its place.
+Span timeOf(const ImpactEvent& event, const Recording& recording) {
+  constexpr double ever = std::numeric_limits<double>::infinity();
+  Span both{-ever, ever};
+  for (const RecordedVehicle& vehicle : recording.vehicles()) {
+    if (vehicle.poses.empty() || !asSeenBy(vehicle.name, event)) continue;
+    const Span one = timeNear(vehicle, event.contact, event.time, reachOfImpact);
+    both = {std::max(both.start, one.start), std::min(both.end, one.end)};
+  }
+  return both.start > -ever ? both : Span{};
+}
+
 /// The time that a three-quarter view is about.
 Span timeOfInterest(const Recording& recording) {
   const auto impacts = recording.impacts();
   const auto worst = std::ranges::max_element(
-      impacts, {}, [](const RecordedImpact& impact) { return impact.event().deltaV; });
+      impacts, {}, [](const RecordedImpact& impact) { return hardness(impact.event()); });
+  if (worst != impacts.end()) return timeOf(worst->event(), recording);
   Span span;
   for (const RecordedVehicle& vehicle : recording.vehicles()) {
     if (vehicle.poses.empty()) continue;
-    if (worst != impacts.end()) {
-      const ImpactEvent event = worst->event();
-      if (event.vehicle == vehicle.name)
-        return timeNear(vehicle, event.contact, event.time, reachOfImpact);
-    } else {
-      const RecordedPose& last = vehicle.poses.back();
-      const Span end = timeNear(vehicle, last.position, last.time, reachOfEnd);
-      span = {std::min(span.start, end.start), std::max(span.end, end.end)};
-    }
+    const RecordedPose& last = vehicle.poses.back();
+    const Span end = timeNear(vehicle, last.position, last.time, reachOfEnd);
+    span = {std::min(span.start, end.start), std::max(span.end, end.end)};
   }
   return span;
 }
@@ -136,7 +144,7 @@ std::vector<double> chosenInstants(const Recording& recording, const Span& span)
   std::vector<ImpactEvent> impacts;
   impacts.reserve(recording.impacts().size());
   for (const RecordedImpact& impact : recording.impacts()) impacts.push_back(impact.event());
-  std::ranges::stable_sort(impacts, std::ranges::greater{}, &ImpactEvent::deltaV);
+  std::ranges::stable_sort(impacts, std::ranges::greater{}, hardness);
   if (!impacts.empty()) add(impacts.front().time, merged);
   add(span.start, crowded);
   for (const ImpactEvent& impact : impacts) {
@@ -165,7 +173,7 @@ std::vector<double> uncrowded(const RecordedVehicle& vehicle, const Recording& r
   if (last != instants.rend()) add(*last, merged);
   const auto impacts = recording.impacts();
   const auto worst = std::ranges::max_element(
-      impacts, {}, [](const RecordedImpact& impact) { return impact.event().deltaV; });
+      impacts, {}, [](const RecordedImpact& impact) { return hardness(impact.event()); });
   if (worst != impacts.end() && std::ranges::binary_search(instants, worst->event().time))
     add(worst->event().time, merged);
   for (const double time : instants) add(time, crowded);
@@ -227,10 +235,10 @@ void labelHardest(std::vector<DrawnImpact>& impacts) {
   order.reserve(impacts.size());
   for (DrawnImpact& impact : impacts) order.push_back(&impact);
   std::ranges::stable_sort(order, std::ranges::greater{},
-                           [](const DrawnImpact* impact) { return impact->event.deltaV; });
+                           [](const DrawnImpact* impact) { return hardness(impact->event); });
   if (order.size() > maxLabelled) order.resize(maxLabelled);
   for (DrawnImpact* impact : order)
-    impact->labelled = impact->event.deltaV >= weakShare * order.front()->event.deltaV;
+    impact->labelled = hardness(impact->event) >= weakShare * hardness(order.front()->event);
 }
 
 }  // namespace
@@ -272,6 +280,7 @@ RunExcerpt excerptOf(const Recording& recording, const SnapshotOptions& options)
     // In a replay a vehicle is solid while it is recorded, and leaves its ghosts behind after.
     if (run.poses.size() > drawn)
       run.poses.back().last = !options.moment || run.poses.back().pose.time == run.now;
+    run.names.push_back(vehicles[v].name);
     run.paths.push_back(thinnedPath(vehicles[v], run.start, run.end));
     run.trails.push_back(upTo(run.now, run.paths.back(), vehicles[v]));
   }
@@ -289,8 +298,20 @@ RunExcerpt excerptOf(const Recording& recording, const SnapshotOptions& options)
 
 const DrawnImpact* hardest(const RunExcerpt& run) {
   const auto found = std::ranges::max_element(
-      run.impacts, {}, [](const DrawnImpact& impact) { return impact.event.deltaV; });
+      run.impacts, {}, [](const DrawnImpact& impact) { return hardness(impact.event); });
   return found == run.impacts.end() ? nullptr : &*found;
+}
+
+bool hasPairs(const RunExcerpt& run) {
+  return std::ranges::any_of(
+      run.impacts, [](const DrawnImpact& impact) { return !impact.event.otherVehicle.empty(); });
+}
+
+std::string deltaVText(const ImpactEvent& event) {
+  std::string text = fixed(event.deltaV, 1);
+  const auto other = asSeenBy(event.otherVehicle, event);
+  if (other && std::isfinite(other->deltaV)) text += " | " + fixed(other->deltaV, 1);
+  return text + " m/s";
 }
 
 double topSpeed(const RunExcerpt& run) {

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/render/recording.h"
 #include "bumper/render/snapshot.h"
 
-namespace bumper::drawing {
+namespace BUMPER_INTERNAL bumper {
+namespace drawing {
 
 /// A vehicle at an instant that is drawn.
 struct DrawnPose {
@@ -32,6 +35,7 @@ struct RunExcerpt {
   std::vector<std::vector<RecordedPose>> paths;   ///< by vehicle, thinned out, up to the end
   std::vector<std::vector<RecordedPose>> trails;  ///< the same up to now
   std::vector<DrawnImpact> impacts;
+  std::vector<std::string> names;  ///< of all vehicles
 };
 
 /// m: how much of a run a three-quarter view is about, on either side of the hardest impact …
@@ -39,7 +43,7 @@ constexpr double reachOfImpact = 15.0;
 /// … or, without impacts, before the end.
 constexpr double reachOfEnd = 30.0;
 
-/// Impacts below this share of the hardest's Δv are weak: they have no label and do not slow a
+/// Impacts below this share of the hardest's are weak: they have no label and do not slow a
 /// replay.
 constexpr double weakShare = 0.1;
 /// m/s: the hardest impact has an arrow of full length if its Δv is at least this.
@@ -52,7 +56,14 @@ RunExcerpt excerptOf(const Recording& recording, const SnapshotOptions& options)
 /// The hardest of the impacts, shown or yet to come; null without impacts.
 const DrawnImpact* hardest(const RunExcerpt& run);
 
+/// Whether vehicles hit each other in it.
+bool hasPairs(const RunExcerpt& run);
+
+/// "4.2 m/s", or of two vehicles "4.2 | 7.1 m/s", the one that the event is about first.
+std::string deltaVText(const ImpactEvent& event);
+
 /// The largest speed on the drawn paths, m/s.
 double topSpeed(const RunExcerpt& run);
 
-}  // namespace bumper::drawing
+}  // namespace drawing
+}  // namespace bumper

@@ -6,9 +6,11 @@
 #include <unsupported/Eigen/BVH>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/scenes/scene.h"
 
-namespace bumper::drawing {
+namespace BUMPER_INTERNAL bumper {
+namespace drawing {
 
 /// What a scene hides from where. Its triangles stand in a tree of boxes, so that a line of sight
 /// is tested against those near it only; memory is in proportion to their number, however they lie.
@@ -33,4 +35,5 @@ class SightLines {
   Eigen::AlignedBox3d box_;
 };
 
-}  // namespace bumper::drawing
+}  // namespace drawing
+}  // namespace bumper

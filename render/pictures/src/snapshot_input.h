@@ -2,10 +2,12 @@
 
 #include <string>
 
+#include "bumper/base/api.h"
 #include "bumper/render/recording.h"
 #include "bumper/render/snapshot.h"
 
-namespace bumper::drawing {
+namespace BUMPER_INTERNAL bumper {
+namespace drawing {
 
 /// Throws Error unless a picture's width or height, which `name` says, lies in `low` to 8192
 /// pixels.
@@ -18,4 +20,5 @@ void checkVehicleMeshes(const Recording& recording, const VehicleMeshes& meshes,
 /// Throws Error if the size lies outside its range, or a vehicle mesh is invalid or of no vehicle.
 void checkOptions(const Recording& recording, const SnapshotOptions& options);
 
-}  // namespace bumper::drawing
+}  // namespace drawing
+}  // namespace bumper

@@ -17,7 +17,7 @@
 
 namespace bumper {
 
-class SnapshotRenderer::Parts {
+class BUMPER_HIDDEN SnapshotRenderer::Parts {
  public:
   Parts(const Scene& scene, OffscreenBackend backend)
       : name(scene.name), sight(scene), context(drawing::makeOffscreenContext(backend)) {

@@ -2,7 +2,10 @@
 
 #include <Eigen/Core>
 
-namespace bumper::drawing {
+#include "bumper/base/api.h"
+
+namespace BUMPER_INTERNAL bumper {
+namespace drawing {
 
 /// A colour for a share from 0 (slow) to 1 (fast), from deep indigo through teal and green to
 /// yellow: ever lighter, so that the order survives in grey and for the colour-blind.
@@ -15,4 +18,5 @@ double roundedUp(double value);
 /// The largest of 1, 2, 5 times a power of ten that is not more than a value; value > 0.
 double roundedDown(double value);
 
-}  // namespace bumper::drawing
+}  // namespace drawing
+}  // namespace bumper

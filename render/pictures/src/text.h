@@ -5,7 +5,10 @@
 #include <string_view>
 #include <vector>
 
-namespace bumper::drawing {
+#include "bumper/base/api.h"
+
+namespace BUMPER_INTERNAL bumper {
+namespace drawing {
 
 /// Heights in units of text; a picture draws them a few times larger.
 constexpr double emHeight = 9.0;
@@ -36,4 +39,5 @@ Glyph glyphOf(char32_t letter, double size, double share);
 /// A number with a point and a fixed number of decimals, whatever the locale; never "-0".
 std::string fixed(double value, int decimals);
 
-}  // namespace bumper::drawing
+}  // namespace drawing
+}  // namespace bumper

@@ -5,11 +5,13 @@
 #include <map>
 #include <tuple>
 
+#include "bumper/base/api.h"
 #include "bumper/render/image.h"
 #include "picture.h"
 #include "text.h"
 
-namespace bumper::drawing {
+namespace BUMPER_INTERNAL bumper {
+namespace drawing {
 
 /// Calls blend(pixel, coverage, x, y) for each pixel of the image that a glyph covers, coverage
 /// from 1 to 255. `left` is the pixel in which the pen stands.
@@ -45,4 +47,5 @@ class TextRenderer {
   std::map<Key, Glyph> glyphs_;
 };
 
-}  // namespace bumper::drawing
+}  // namespace drawing
+}  // namespace bumper

@@ -217,9 +217,11 @@ class Builder {
 }  // namespace
 
 Vector3f paintOf(std::size_t vehicle) {
-  static const std::array<Vector3f, 5> paints = {
-      Vector3f(0.86F, 0.14F, 0.13F), Vector3f(0.15F, 0.36F, 0.80F), Vector3f(0.95F, 0.55F, 0.10F),
-      Vector3f(0.45F, 0.20F, 0.62F), Vector3f(0.10F, 0.52F, 0.45F)};
+  // Red, blue, amber, sky, black, pine, plum, salmon.
+  static const std::array<Vector3f, paintCount> paints = {
+      Vector3f(0.86F, 0.14F, 0.13F), Vector3f(0.34F, 0.18F, 0.96F), Vector3f(0.98F, 0.78F, 0.10F),
+      Vector3f(0.25F, 0.74F, 0.97F), Vector3f(0.07F, 0.07F, 0.10F), Vector3f(0.15F, 0.36F, 0.31F),
+      Vector3f(0.51F, 0.05F, 0.51F), Vector3f(0.98F, 0.54F, 0.49F)};
   return paints[vehicle % paints.size()];
 }
 

@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/render/recording.h"
 #include "bumper/render/vehicle_meshes.h"
 #include "bumper/response/vehicle_parameters.h"
 
-namespace bumper::drawing {
+namespace BUMPER_INTERNAL bumper {
+namespace drawing {
 
 /// A triangle of a drawn vehicle in the vehicle's frame (x forward, y left, z up, origin at the
 /// mass centre).
@@ -30,7 +32,12 @@ std::vector<ShapeTriangle> vehicleShape(const VehicleParameters& vehicle, const 
 std::vector<ShapeTriangle> vehicleShape(const RecordedVehicle& vehicle, std::size_t index,
                                         const VehicleMeshes& meshes);
 
-/// The paint of the vehicle with an index in the recording.
+/// As many can be told apart, by the colour-blind too.
+inline constexpr std::size_t paintCount = 8;
+
+/// The paint of the vehicle with an index in the recording, the same in every picture. The first
+/// ones differ; then they come again.
 Eigen::Vector3f paintOf(std::size_t vehicle);
 
-}  // namespace bumper::drawing
+}  // namespace drawing
+}  // namespace bumper

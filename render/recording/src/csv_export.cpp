@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -23,7 +24,12 @@ constexpr std::string_view eventsHeader =
     "impulse_normal_Ns,impulse_tangent_Ns,impulse_ratio,critical_impulse_ratio,delta_v_mps,"
     "yaw_rate_before_rps,yaw_rate_after_rps,speed_before_mps,speed_after_mps,"
     "velocity_after_x_mps,velocity_after_y_mps,velocity_after_z_mps,energy_asked,energy_ratio,"
-    "energy_lost_J,outcome,regime\n";
+    "energy_lost_J,outcome,regime,velocity_before_x_mps,velocity_before_y_mps,velocity_before_z_"
+    "mps,"
+    "other_vehicle,other_arm_x_m,other_arm_y_m,other_velocity_before_x_mps,"
+    "other_velocity_before_y_mps,other_velocity_before_z_mps,other_velocity_after_x_mps,"
+    "other_velocity_after_y_mps,other_velocity_after_z_mps,other_yaw_rate_before_rps,"
+    "other_yaw_rate_after_rps\n";
 
 constexpr std::string_view trajectoryHeader =
     "time_s,x_m,y_m,z_m,yaw_rad,vx_mps,vy_mps,vz_mps,yaw_rate_rps\n";
@@ -37,6 +43,12 @@ class Row {
     separate();
     if (std::isnan(value)) return *this;
     return append(value);
+  }
+
+  template <int size>
+  Row& operator<<(const Eigen::Matrix<double, size, 1>& vector) {
+    for (const double value : vector) *this << value;
+    return *this;
   }
 
   Row& operator<<(int value) {
@@ -92,7 +104,13 @@ std::string eventsText(const Recording& recording) {
         << event.speedBefore << event.speedAfter << event.velocityAfter.x()
         << event.velocityAfter.y() << event.velocityAfter.z() << event.energyAsked
         << event.energyRatio << event.energyLost << toString(event.outcome)
-        << toString(event.regime);
+        << toString(event.regime) << event.velocityBefore << event.otherVehicle;
+    // A field stays empty where there is no other vehicle.
+    const double known =
+        event.otherVehicle.empty() ? std::numeric_limits<double>::quiet_NaN() : 1.0;
+    row << Vector2(known * event.otherArm) << Eigen::Vector3d(known * event.otherVelocityBefore)
+        << Eigen::Vector3d(known * event.otherVelocityAfter) << known * event.otherYawRateBefore
+        << known * event.otherYawRateAfter;
     row.end();
   }
   return text;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "recording_checks.h"
@@ -29,6 +30,31 @@ ImpactEvent RecordedImpact::event() const {
   result.otherVehicle = otherVehicle_;
   result.material = material_;
   return result;
+}
+
+std::optional<ImpactEvent> asSeenBy(std::string_view vehicle, const ImpactEvent& event) {
+  if (event.vehicle == vehicle) return event;
+  if (event.otherVehicle.empty() || event.otherVehicle != vehicle) return {};
+  ImpactEvent other = event;
+  std::swap(other.vehicle, other.otherVehicle);
+  std::swap(other.arm, other.otherArm);
+  std::swap(other.velocityBefore, other.otherVelocityBefore);
+  std::swap(other.velocityAfter, other.otherVelocityAfter);
+  std::swap(other.yawRateBefore, other.otherYawRateBefore);
+  std::swap(other.yawRateAfter, other.otherYawRateAfter);
+  other.speedBefore = other.velocityBefore.norm();
+  other.speedAfter = other.velocityAfter.norm();
+  other.deltaV = (other.velocityAfter - other.velocityBefore).norm();
+  // Its impulse is the opposite one, and so are its normal and its tangent: their shares are the
+  // same numbers.
+  other.normal = -event.normal;
+  other.angles.centreVelocity = other.angles.heading = std::numeric_limits<double>::quiet_NaN();
+  return other;
+}
+
+double hardness(const ImpactEvent& event) {
+  const auto other = asSeenBy(event.otherVehicle, event);
+  return other && other->deltaV > event.deltaV ? other->deltaV : event.deltaV;
 }
 
 std::optional<RecordedPose> poseAt(const RecordedVehicle& vehicle, double time) {

@@ -34,6 +34,16 @@ struct Owner {
     if (!finite) reject(std::string(quantity) + " is not finite", "it must be finite");
   }
 
+  /// NaN is allowed: not known.
+  template <typename Vector>
+  void requireNoInfinity(const Vector& numbers, const char* quantity) const {
+    for (const double number : numbers) {
+      if (std::isinf(number)) {
+        reject(std::string(quantity) + " is infinite", "it must be finite, or NaN if not known");
+      }
+    }
+  }
+
   void requireOrder(std::optional<double> last) const {
     if (!last || time >= *last) return;
     std::ostringstream allowed;
@@ -104,6 +114,16 @@ void checkImpact(const ImpactEvent& event, std::optional<double> last) {
   owner.requireFinite(event.velocityAfter.allFinite(), "velocity after");
   if (std::abs(event.normal.norm() - 1.0) > unitTolerance)
     owner.reject("normal is not a direction", "it must be of unit length");
+  owner.requireNoInfinity(event.velocityBefore, "velocity before");
+  if (!event.otherVehicle.empty()) {
+    if (event.otherVehicle == event.vehicle)
+      owner.reject("other vehicle is itself", "it must be another");
+    owner.requireNoInfinity(event.otherArm, "other vehicle's arm");
+    owner.requireNoInfinity(event.otherVelocityBefore, "other vehicle's velocity before");
+    owner.requireNoInfinity(event.otherVelocityAfter, "other vehicle's velocity after");
+    owner.requireNoInfinity(Vector2(event.otherYawRateBefore, event.otherYawRateAfter),
+                            "other vehicle's yaw rate");
+  }
   owner.requireOrder(last);
 }
 

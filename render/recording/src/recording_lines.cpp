@@ -69,6 +69,10 @@ constexpr std::array angleFields = {AngleField{"contactVelocity", &AnglesOfAttac
                                     AngleField{"centreVelocity", &AnglesOfAttack::centreVelocity},
                                     AngleField{"heading", &AnglesOfAttack::heading}};
 
+constexpr std::array otherFields = {
+    ImpactField{"otherYawRateBefore", &ImpactEvent::otherYawRateBefore},
+    ImpactField{"otherYawRateAfter", &ImpactEvent::otherYawRateAfter}};
+
 constexpr std::array phases = {EventPhase::impact, EventPhase::contact_begin,
                                EventPhase::contact_end};
 constexpr std::array laws = {Law::restitution, Law::energy};
@@ -112,8 +116,15 @@ std::string jsonString(std::string_view words) {
   return Json(words).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+void appendKey(std::string& text, std::string_view name) {
+  text += ",\"";
+  text += name;
+  text += "\":";
+}
+
 template <typename Vector>
-void appendVector(std::string& text, const Vector& vector) {
+void appendVector(std::string& text, std::string_view name, const Vector& vector) {
+  appendKey(text, name);
   char separator = '[';
   for (const double number : vector) {
     text += separator;
@@ -121,12 +132,6 @@ void appendVector(std::string& text, const Vector& vector) {
     separator = ',';
   }
   text += ']';
-}
-
-void appendKey(std::string& text, std::string_view name) {
-  text += ",\"";
-  text += name;
-  text += "\":";
 }
 
 template <typename Fields, typename Owner>
@@ -250,20 +255,40 @@ auto oneOf(const Words& words, const Json& word, const char* name) {
 }
 
 template <typename Vector>
-Vector vectorOf(const Json& array) {
-  Vector vector;
-  if (array.size() != static_cast<std::size_t>(vector.size()))
-    throw Error("a vector has " + std::to_string(array.size()) + " numbers instead of " +
-                std::to_string(vector.size()));
+void readVector(const Json& object, const char* name, Vector& vector) {
+  const Json& array = object.at(name);
+  const auto wanted = static_cast<std::size_t>(vector.size());
+  if (!array.is_array() || array.size() != wanted)
+    throw Error(std::string(name) + " is no list of " + std::to_string(wanted) + " numbers");
   for (Eigen::Index k = 0; k < vector.size(); ++k) {
     vector[k] = numberOf(array.at(static_cast<std::size_t>(k)));
   }
-  return vector;
+}
+
+/// What files of earlier times do not have is not known.
+template <typename Vector>
+void readVectorIfThere(const Json& object, const char* name, Vector& vector) {
+  vector.setConstant(notKnown);
+  if (object.contains(name)) readVector(object, name, vector);
 }
 
 template <typename Fields, typename Owner>
 void readFields(const Json& object, const Fields& fields, Owner& owner) {
   for (const auto& field : fields) owner.*field.value = numberOf(object.at(field.name));
+}
+
+void readOtherVehicle(const Json& object, ImpactEvent& event) {
+  const auto other = object.find("otherVehicle");
+  if (other == object.end()) return;
+  if (!other->is_string()) throw Error("otherVehicle is no name");
+  event.otherVehicle = other->get_ref<const std::string&>();
+  readVectorIfThere(object, "otherArm", event.otherArm);
+  readVectorIfThere(object, "otherVelocityBefore", event.otherVelocityBefore);
+  readVectorIfThere(object, "otherVelocityAfter", event.otherVelocityAfter);
+  for (const auto& field : otherFields) {
+    const auto number = object.find(field.name);
+    event.*field.value = number == object.end() ? notKnown : numberOf(*number);
+  }
 }
 
 RunParameters parametersOf(const Json& object) {
@@ -390,26 +415,27 @@ void appendImpact(std::string& text, const ImpactEvent& event) {
     appendKey(text, name);
     text += jsonString(words);
   }
-  if (!event.otherVehicle.empty()) {
-    appendKey(text, "otherVehicle");
-    text += jsonString(event.otherVehicle);
-  }
   appendKey(text, "triangle");
   append(text, event.triangle);
-  appendKey(text, "contact");
-  appendVector(text, event.contact);
-  appendKey(text, "normal");
-  appendVector(text, event.normal);
-  appendKey(text, "arm");
-  appendVector(text, event.arm);
-  appendKey(text, "velocityAfter");
-  appendVector(text, event.velocityAfter);
+  appendVector(text, "contact", event.contact);
+  appendVector(text, "normal", event.normal);
+  appendVector(text, "arm", event.arm);
+  appendVector(text, "velocityBefore", event.velocityBefore);
+  appendVector(text, "velocityAfter", event.velocityAfter);
   appendKey(text, "angles");
   std::string angles;
   appendFields(angles, angleFields, event.angles);
   angles.front() = '{';
   text += angles + '}';
   appendFields(text, impactFields, event);
+  if (!event.otherVehicle.empty()) {
+    appendKey(text, "otherVehicle");
+    text += jsonString(event.otherVehicle);
+    appendVector(text, "otherArm", event.otherArm);
+    appendVector(text, "otherVelocityBefore", event.otherVelocityBefore);
+    appendVector(text, "otherVelocityAfter", event.otherVelocityAfter);
+    appendFields(text, otherFields, event);
+  }
   text += "}\n";
 }
 
@@ -512,21 +538,20 @@ RecordedImpact parseImpact(std::string_view line, const RecordingLimits& limits)
     event.time = timeOf(object.at("time").get<double>(), limits);
     event.vehicle = object.at("vehicle").get_ref<const std::string&>();
     event.barrier = object.at("barrier").get_ref<const std::string&>();
-    if (const auto other = object.find("otherVehicle"); other != object.end()) {
-      event.otherVehicle = other->get_ref<const std::string&>();
-    }
     event.material = object.at("material").get_ref<const std::string&>();
     event.phase = oneOf(phases, object.at("phase"), "phase");
     event.law = oneOf(laws, object.at("law"), "law");
     event.regime = oneOf(regimes, object.at("regime"), "regime");
     event.outcome = oneOf(outcomes, object.at("outcome"), "outcome");
     event.triangle = integerOf<int>(object.at("triangle"), "triangle");
-    event.contact = vectorOf<Eigen::Vector3d>(object.at("contact"));
-    event.normal = vectorOf<Eigen::Vector3d>(object.at("normal"));
-    event.arm = vectorOf<Vector2>(object.at("arm"));
-    event.velocityAfter = vectorOf<Eigen::Vector3d>(object.at("velocityAfter"));
+    readVector(object, "contact", event.contact);
+    readVector(object, "normal", event.normal);
+    readVector(object, "arm", event.arm);
+    readVector(object, "velocityAfter", event.velocityAfter);
+    readVectorIfThere(object, "velocityBefore", event.velocityBefore);
     readFields(object.at("angles"), angleFields, event.angles);
     readFields(object, impactFields, event);
+    readOtherVehicle(object, event);
     return RecordedImpact(event);
   });
 }

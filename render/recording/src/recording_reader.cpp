@@ -46,7 +46,7 @@ bool contains(const RecordingSpan& span, double time) {
 
 }  // namespace
 
-class RecordingReader::Implementation {
+class BUMPER_HIDDEN RecordingReader::Implementation {
  public:
   Implementation(const std::filesystem::path& file, const RecordingLimits& limits)
       : file_(file), limits_(limits), lines_(file, limits.lineBytes) {

@@ -58,9 +58,15 @@ struct NumberedImpact {
 using Row = std::vector<NumberedImpact>;
 
 const ImpactEvent& hardestOf(const Row& row) {
-  return std::ranges::max_element(row, {},
-                                  [](const NumberedImpact& impact) { return impact.event.deltaV; })
+  return std::ranges::max_element(
+             row, {}, [](const NumberedImpact& impact) { return hardness(impact.event); })
       ->event;
+}
+
+/// Whether a vehicle that the row of `first` shows takes part in both.
+bool isSameParty(const ImpactEvent& first, const ImpactEvent& second) {
+  return asSeenBy(first.vehicle, second) ||
+         (!first.otherVehicle.empty() && asSeenBy(first.otherVehicle, second));
 }
 
 /// The hardest impacts; one that comes soon after or before a harder one joins its row.
@@ -69,12 +75,12 @@ std::vector<Row> rowsOf(const Recording& recording, std::size_t most) {
   for (const RecordedImpact& impact : recording.impacts())
     impacts.push_back({impacts.size() + 1, impact.event()});
   std::ranges::stable_sort(impacts, std::ranges::greater{},
-                           [](const NumberedImpact& impact) { return impact.event.deltaV; });
+                           [](const NumberedImpact& impact) { return hardness(impact.event); });
   std::vector<Row> rows;
   for (const NumberedImpact& impact : impacts) {
     const auto joined = std::ranges::find_if(rows, [&](const Row& row) {
       const ImpactEvent& first = row.front().event;
-      return first.vehicle == impact.event.vehicle &&
+      return isSameParty(first, impact.event) &&
              std::abs(first.time - impact.event.time) <= sameRow;
     });
     if (joined != rows.end())
@@ -121,18 +127,35 @@ void write(Image& sheet, const std::string& line, int left, int baseline, Rgb co
   }
 }
 
-std::string headingOf(const NumberedImpact& impact) {
+std::string motionOf(const ImpactEvent& event) {
+  return "speed " + drawing::fixed(event.speedBefore, 1) + " to " +
+         drawing::fixed(event.speedAfter, 1) + " m/s, yaw rate " +
+         drawing::fixed(event.yawRateBefore * degrees, 0) + " to " +
+         drawing::fixed(event.yawRateAfter * degrees, 0) + "°/s";
+}
+
+/// One line for each vehicle that takes part and is known.
+std::vector<std::string> headingOf(const NumberedImpact& impact) {
   const ImpactEvent& event = impact.event;
-  std::string text = "Impact " + std::to_string(impact.number) + " at " +
-                     drawing::fixed(event.time, 3) + " s: Δv " + drawing::fixed(event.deltaV, 1) +
-                     " m/s, closing at " + drawing::fixed(event.approachSpeed, 1) + " m/s, speed " +
-                     drawing::fixed(event.speedBefore, 1) + " to " +
-                     drawing::fixed(event.speedAfter, 1) + " m/s, yaw rate " +
-                     drawing::fixed(event.yawRateBefore * degrees, 0) + " to " +
-                     drawing::fixed(event.yawRateAfter * degrees, 0) + "°/s";
+  const auto deltaV = [](const ImpactEvent& e) {
+    return "Δv " + drawing::fixed(e.deltaV, 1) + " m/s, ";
+  };
+  const std::string closing = "closing at " + drawing::fixed(event.approachSpeed, 1) + " m/s";
+  const std::string start =
+      "Impact " + std::to_string(impact.number) + " at " + drawing::fixed(event.time, 3) + " s: ";
   const std::string_view wall = event.material.empty() ? event.barrier : event.material;
-  if (!wall.empty()) text += ", " + std::string(wall);
-  return text;
+  const auto other = asSeenBy(event.otherVehicle, event);
+  if (!other) {
+    const std::string line = start + deltaV(event) + closing + ", " + motionOf(event);
+    return {wall.empty() ? line : line + ", " + std::string(wall)};
+  }
+  std::vector<std::string> lines{start + std::string(event.vehicle) + " and " +
+                                 std::string(event.otherVehicle) + ", " + closing};
+  for (const ImpactEvent& each : {event, *other}) {
+    if (std::isfinite(each.deltaV))
+      lines.push_back(std::string(each.vehicle) + ": " + deltaV(each) + motionOf(each));
+  }
+  return lines;
 }
 
 std::string captionOf(double offset) {
@@ -142,24 +165,33 @@ std::string captionOf(double offset) {
   return text;
 }
 
-const RecordedVehicle* vehicleOf(const Recording& recording, const ImpactEvent& event) {
-  const auto vehicles = recording.vehicles();
-  const auto found = std::ranges::find(vehicles, event.vehicle, &RecordedVehicle::name);
-  return found == vehicles.end() ? nullptr : &*found;
+/// Those of an impact that were recorded at its time, the one that the event is about first.
+std::vector<const RecordedVehicle*> vehiclesOf(const Recording& recording,
+                                               const ImpactEvent& event) {
+  std::vector<const RecordedVehicle*> vehicles;
+  for (const std::string_view name : {event.vehicle, event.otherVehicle}) {
+    const auto found = std::ranges::find(recording.vehicles(), name, &RecordedVehicle::name);
+    if (found != recording.vehicles().end() && poseAt(*found, event.time))
+      vehicles.push_back(&*found);
+  }
+  return vehicles;
 }
 
-/// Points of a vehicle that should be seen at all the instants: its mass centre, and its corners
-/// half way up.
-std::vector<Eigen::Vector3d> watchedPoints(const RecordedVehicle& vehicle,
+/// Points of vehicles that should be seen at all the instants: their mass centres, and their
+/// corners half way up.
+std::vector<Eigen::Vector3d> watchedPoints(const std::vector<const RecordedVehicle*>& vehicles,
                                            const std::vector<double>& times) {
-  const VehicleParameters& p = vehicle.parameters;
   std::vector<Eigen::Vector3d> points;
-  for (const double time : times) {
-    const RecordedPose pose = poseAt(vehicle, time).value();
-    points.push_back(pose.position);
-    for (const double x : {p.massCentreToFront, -p.massCentreToRear}) {
-      for (const double y : {-0.5 * p.width, 0.5 * p.width})
-        points.emplace_back(pose.position + pose.orientation * Eigen::Vector3d(x, y, 0.0));
+  for (const RecordedVehicle* vehicle : vehicles) {
+    const VehicleParameters& p = vehicle->parameters;
+    for (const double time : times) {
+      const auto pose = poseAt(*vehicle, time);
+      if (!pose) continue;
+      points.push_back(pose->position);
+      for (const double x : {p.massCentreToFront, -p.massCentreToRear}) {
+        for (const double y : {-0.5 * p.width, 0.5 * p.width})
+          points.emplace_back(pose->position + pose->orientation * Eigen::Vector3d(x, y, 0.0));
+      }
     }
   }
   return points;
@@ -167,15 +199,21 @@ std::vector<Eigen::Vector3d> watchedPoints(const RecordedVehicle& vehicle,
 
 /// From the open side of the wall, 25° off its normal to where the vehicle came from, or from where
 /// less of the vehicle is hidden; its places at all the instants in sight.
-SnapshotOptions viewOf(const ImpactEvent& event, const RecordedVehicle& vehicle,
+SnapshotOptions viewOf(const ImpactEvent& event,
+                       const std::vector<const RecordedVehicle*>& vehicles,
                        const std::vector<double>& times, const ContactSheetOptions& options,
                        const drawing::SightLines& sight) {
+  const RecordedVehicle& vehicle = *vehicles.front();
   SnapshotOptions picture;
   picture.width = options.pictureWidth;
   picture.height = options.pictureHeight;
   picture.view = SnapshotView::orbit;
   Eigen::AlignedBox3d places(event.contact);
-  for (const double time : times) places.extend(poseAt(vehicle, time)->position);
+  for (const RecordedVehicle* each : vehicles) {
+    for (const double time : times) {
+      if (const auto pose = poseAt(*each, time)) places.extend(pose->position);
+    }
+  }
   picture.orbit.centre = places.center();
   const double length = vehicle.parameters.massCentreToFront + vehicle.parameters.massCentreToRear;
   constexpr double halfWidth = 0.37;  // of the view, over the distance
@@ -184,7 +222,7 @@ SnapshotOptions viewOf(const ImpactEvent& event, const RecordedVehicle& vehicle,
   const auto now = poseAt(vehicle, event.time);
   const Eigen::Vector3d tangent = Eigen::Vector3d::UnitZ().cross(event.normal);
   const double side = now && tangent.dot(now->velocity) > 0.0 ? -1.0 : 1.0;
-  const std::vector<Eigen::Vector3d> watched = watchedPoints(vehicle, times);
+  const std::vector<Eigen::Vector3d> watched = watchedPoints(vehicles, times);
   auto least = std::numeric_limits<int>::max();
   for (const double elevation : {42.0, 26.0, 62.0}) {
     for (const double turn : {25.0, -25.0, 62.0, -62.0}) {
@@ -219,16 +257,19 @@ std::vector<double> ghostsAt(double now, const RecordedVehicle& vehicle,
 }
 
 /// A row's pictures with their captions; `top` is the pictures' upper edge.
-void drawPictures(Image& sheet, int top, const Row& row, const RecordedVehicle& vehicle,
-                  const Recording& recording, const ContactSheetOptions& options,
-                  const drawing::SightLines& sight, SnapshotRenderer& renderer) {
+void drawPictures(Image& sheet, int top, const Row& row, const Recording& recording,
+                  const ContactSheetOptions& options, const drawing::SightLines& sight,
+                  SnapshotRenderer& renderer) {
   const ImpactEvent& event = hardestOf(row);
+  const std::vector<const RecordedVehicle*> vehicles = vehiclesOf(recording, event);
+  if (vehicles.empty()) return;
+  const RecordedVehicle& vehicle = *vehicles.front();
   const auto isRecorded = [&](double time) { return poseAt(vehicle, time).has_value(); };
   std::vector<double> times;
   for (const double offset : options.instants) {
     if (isRecorded(event.time + offset)) times.push_back(event.time + offset);
   }
-  SnapshotOptions picture = viewOf(event, vehicle, times, options, sight);
+  SnapshotOptions picture = viewOf(event, vehicles, times, options, sight);
   int left = gap;
   for (const double offset : options.instants) {
     write(sheet, captionOf(offset), left, top + options.pictureHeight + baselineBelow, softInk);
@@ -251,7 +292,11 @@ Image contactSheet(const Scene& scene, const Recording& recording,
   const std::vector<Row> rows = rowsOf(recording, options.impacts);
   const int width = static_cast<int>(options.instants.size()) * (options.pictureWidth + gap) + gap;
   const int overview = std::max(width * 2 / 5, options.pictureHeight);
-  const auto headings = [](const Row& row) { return static_cast<int>(row.size()) * captionHeight; };
+  const auto headings = [](const Row& row) {
+    std::size_t lines = 0;
+    for (const NumberedImpact& impact : row) lines += headingOf(impact).size();
+    return static_cast<int>(lines) * captionHeight;
+  };
   int height = gap + overview + gap;
   for (const Row& row : rows) height += headings(row) + options.pictureHeight + captionHeight + gap;
   Image sheet(width, height, paper);
@@ -268,12 +313,12 @@ Image contactSheet(const Scene& scene, const Recording& recording,
   int top = gap + overview + gap;
   for (const Row& row : rows) {
     for (const NumberedImpact& impact : row) {
-      write(sheet, headingOf(impact), gap, top + baselineBelow, ink);
-      top += captionHeight;
+      for (const std::string& line : headingOf(impact)) {
+        write(sheet, line, gap, top + baselineBelow, ink);
+        top += captionHeight;
+      }
     }
-    const RecordedVehicle* vehicle = vehicleOf(recording, row.front().event);
-    if (vehicle != nullptr && !vehicle->poses.empty())
-      drawPictures(sheet, top, row, *vehicle, recording, options, sight, renderer);
+    drawPictures(sheet, top, row, recording, options, sight, renderer);
     top += options.pictureHeight + captionHeight + gap;
   }
   return sheet;

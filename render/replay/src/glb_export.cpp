@@ -252,16 +252,18 @@ class GlbExport {
   void addImpacts() {
     const drawing::DrawnImpact* worst = drawing::hardest(run_);
     if (worst == nullptr) return;
-    const double full = std::max(worst->event.deltaV, drawing::fullArrowDeltaV);
+    const double full = std::max(hardness(worst->event), drawing::fullArrowDeltaV);
     const std::size_t looks = file_.addMaterial("impact", mark);
     for (const drawing::DrawnImpact& impact : run_.impacts) {
       const ImpactEvent& event = impact.event;
-      const bool weak = event.deltaV < drawing::weakShare * worst->event.deltaV;
-      const std::string label = "impact " + std::to_string(impact.number) + ", " +
-                                drawing::fixed(event.deltaV, 1) + " m/s";
+      const auto other = asSeenBy(event.otherVehicle, event);
+      const bool weak = hardness(event) < drawing::weakShare * hardness(worst->event);
+      const std::string label =
+          "impact " + std::to_string(impact.number) + ", " + drawing::deltaVText(event);
+      const double arrow = fullArrow * event.deltaV / full;
+      const double opposite = other && other->deltaV > 0.0 ? fullArrow * other->deltaV / full : 0.0;
       const std::size_t mesh = addMesh(
-          label, Json::array({primitive(
-                     weak ? ball(0.12, 0.0) : pin(fullArrow * event.deltaV / full), looks)}));
+          label, Json::array({primitive(weak ? ball(0.12, 0.0) : pin(arrow, opposite), looks)}));
       // Its x axis is the wall's normal, level.
       const double yaw = std::atan2(event.normal.y(), event.normal.x());
       const Quaternionf turn(Eigen::AngleAxisf(static_cast<float>(yaw), Vector3f::UnitZ()));
@@ -277,13 +279,18 @@ class GlbExport {
   }
 
   static Json extras(const ImpactEvent& event) {
-    return {{"time_s", event.time},
-            {"vehicle", event.vehicle},
-            {"barrier", event.barrier},
-            {"deltaV_mps", event.deltaV},
-            {"approachSpeed_mps", event.approachSpeed},
-            {"impulseNormal_Ns", event.impulseNormal},
-            {"impulseTangent_Ns", event.impulseTangent}};
+    Json extras = {{"time_s", event.time},
+                   {"vehicle", event.vehicle},
+                   {"barrier", event.barrier},
+                   {"deltaV_mps", event.deltaV},
+                   {"approachSpeed_mps", event.approachSpeed},
+                   {"impulseNormal_Ns", event.impulseNormal},
+                   {"impulseTangent_Ns", event.impulseTangent}};
+    if (const auto other = asSeenBy(event.otherVehicle, event)) {
+      extras["otherVehicle"] = other->vehicle;
+      if (std::isfinite(other->deltaV)) extras["otherDeltaV_mps"] = other->deltaV;
+    }
+    return extras;
   }
 
   /// Nothing is seen of the node before its time.
@@ -315,14 +322,18 @@ class GlbExport {
     return surface;
   }
 
-  /// Stands on the contact point and ends above any car, in a ball from which the arrow points.
-  static Surface pin(double arrow) {
+  /// Stands on the contact point and ends above any car, in a ball from which the arrow points, and
+  /// another one the opposite way; each if it has a length.
+  static Surface pin(double arrow, double opposite) {
     constexpr double height = 2.4;
     Surface surface = ball(0.22, height);
     addTube(surface, Vector3d::Zero(), Vector3d(0.0, 0.0, height), 0.05, 0.05);
-    const double head = std::min(0.7, 0.6 * arrow);
-    addTube(surface, {0.0, 0.0, height}, {arrow - head, 0.0, height}, 0.09, 0.09);
-    addTube(surface, {arrow - head, 0.0, height}, {arrow, 0.0, height}, 0.28, 0.0);
+    for (const double way : {arrow, -opposite}) {
+      if (way == 0.0) continue;
+      const double shaft = way - std::copysign(std::min(0.7, 0.6 * std::abs(way)), way);
+      addTube(surface, {0.0, 0.0, height}, {shaft, 0.0, height}, 0.09, 0.09);
+      addTube(surface, {shaft, 0.0, height}, {way, 0.0, height}, 0.28, 0.0);
+    }
     return surface;
   }
 

@@ -63,10 +63,11 @@ Span spanOf(const Recording& recording, const ReplayTiming& timing) {
 std::vector<double> slowingImpacts(const Recording& recording) {
   double hardest = 0.0;
   for (const RecordedImpact& impact : recording.impacts())
-    hardest = std::max(hardest, impact.event().deltaV);
+    hardest = std::max(hardest, hardness(impact.event()));
   std::vector<double> times;
   for (const RecordedImpact& impact : recording.impacts()) {
-    if (impact.event().deltaV >= drawing::weakShare * hardest) times.push_back(impact.event().time);
+    if (hardness(impact.event()) >= drawing::weakShare * hardest)
+      times.push_back(impact.event().time);
   }
   std::ranges::sort(times);
   return times;

@@ -75,7 +75,7 @@ std::string textOf(double number) {
 
 }  // namespace
 
-class VideoWriter::Implementation {
+class BUMPER_HIDDEN VideoWriter::Implementation {
  public:
   Implementation(const std::filesystem::path& file, int width, int height, double framesPerSecond,
                  double patience)

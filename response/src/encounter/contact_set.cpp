@@ -61,14 +61,49 @@ std::optional<Vector2> endAt(const Segment& wall, const Vector2& place) {
 void ContactSet::begin(std::span<const Segment> segments, std::span<const Surface> surfaces) {
   surfaces_ = surfaces;
   manifolds_.clear();
-  for (const Segment& wall : merge_.merge(segments, surfaces, vehicle_.body.motion.position)) {
+  time_ = 0.0;
+  anyMoves_ = false;
+  given_ = merge_.merge(segments, surfaces, vehicle_.body.motion.position);
+  for (const Segment& wall : given_) {
     manifolds_.push_back({.segment = wall});
-    manifolds_.back().passed = surfaceOf(manifolds_.back()).entered;
+    const Surface& surface = surfaceOf(manifolds_.back());
+    manifolds_.back().passed = surface.entered;
+    anyMoves_ |= surface.moves;
+  }
+}
+
+PlanarBody ContactSet::bodyOf(const Manifold& wall) const {
+  const Surface& surface = surfaceOf(wall);
+  if (!surface.moves) return {};
+  return {.motion = advanced(surface.motion, time_)};
+}
+
+Segment ContactSet::segmentAt(const Manifold& wall, double time) const {
+  const Surface& surface = surfaceOf(wall);
+  const Segment& given = givenSegment(wall);
+  if (!surface.moves || time == 0.0) return given;
+  return carried(given, surface.motion.placement(), advanced(surface.motion, time).placement());
+}
+
+int ContactSet::pieceAt(const Manifold& wall, const Vector2& point) const {
+  const Surface& surface = surfaceOf(wall);
+  if (!surface.moves) return merge_.pieceAt(wall.segment, point);
+  const Placement start = surface.motion.placement();
+  const Vector2 local = advanced(surface.motion, time_).placement().local(point);
+  return merge_.pieceAt(givenSegment(wall), start.position + start.turned(local));
+}
+
+void ContactSet::moveWalls() {
+  if (!anyMoves_) return;
+  for (Manifold& wall : manifolds_) {
+    if (surfaceOf(wall).moves) wall.segment = segmentAt(wall, time_);
   }
 }
 
 void ContactSet::update(double time) {
   place_ = vehicle_.body.motion.placement();
+  time_ = time;
+  moveWalls();
   for (Manifold& wall : manifolds_) setOverlap(wall, overlapWith(wall.segment, time));
   finish();
 }
@@ -152,17 +187,63 @@ bool ContactSet::isHidden(const Manifold& wall) const {
   });
 }
 
-Approach ContactSet::approach(const ContactPoint& contact, const Vector2& normal) const {
-  return {contact, normal, -velocityAt(vehicle_.body.motion, contact.arm).dot(normal)};
+// The vehicle as it moves relative to a wall.
+Participant ContactSet::seenFrom(const Manifold& wall) const {
+  if (!surfaceOf(wall).moves) return vehicle_;
+  Participant seen = vehicle_;
+  const PlanarMotion walls = bodyOf(wall).motion;
+  seen.body.motion.velocity -= velocityAt(walls, seen.body.motion.position - walls.position);
+  seen.body.motion.yawRate -= walls.yawRate;
+  return seen;
+}
+
+double ContactSet::gapAcceleration(const Manifold& wall) const {
+  const Participant seen = seenFrom(wall);
+  if (!turns(wall)) return seen.gapAcceleration();
+  // A frame that turns sees the mass centre on a curve.
+  const PlanarMotion walls = bodyOf(wall).motion;
+  const double spin = std::abs(walls.yawRate);
+  const double away = (seen.body.motion.position - walls.position).norm();
+  return seen.gapAcceleration() + spin * (2.0 * seen.body.motion.velocity.norm() + spin * away);
+}
+
+ContactSet::Forecast ContactSet::forecast(const Manifold& wall, double time) const {
+  const Surface& surface = surfaceOf(wall);
+  if (!surface.moves) return {.segment = wall.segment, .overlap = wall.overlap};
+  const Placement before = bodyOf(wall).motion.placement();
+  const Placement after = advanced(surface.motion, time).placement();
+  Forecast result{.segment = segmentAt(wall, time),
+                  .overlap = carried(wall.overlap, before, after)};
+  // Its normal points to the side that the vehicle comes from.
+  result.segment.solid = true;
+  return result;
+}
+
+// Of the outline's point, as seen from the wall.
+Vector2 ContactSet::relativeVelocity(const Manifold& wall, const ContactPoint& contact) const {
+  const Vector2 velocity = velocityAt(vehicle_.body.motion, contact.arm);
+  if (!surfaceOf(wall).moves) return velocity;
+  const PlanarMotion motion = bodyOf(wall).motion;
+  return velocity - velocityAt(motion, contact.point - motion.position);
+}
+
+double ContactSet::speedOf(const Manifold& wall, const Approach& at) const {
+  const PlanarMotion motion = bodyOf(wall).motion;
+  return at.normal.dot(velocityAt(motion, at.contact.point - motion.position));
+}
+
+Approach ContactSet::approach(const Manifold& wall, const ContactPoint& contact,
+                              const Vector2& normal) const {
+  return {contact, normal, -relativeVelocity(wall, contact).dot(normal)};
 }
 
 Approach ContactSet::touching(const Manifold& wall, const Answer& answered) const {
   const std::span<const ContactPoint> points = wall.points.all();
   const auto approachAt = [&](const ContactPoint& point) {
-    if (answered.yielding == 0.0) return approach(point, wall.overlap.normal);
+    if (answered.yielding == 0.0) return approach(wall, point, wall.overlap.normal);
     const Approach at =
         between({.contact = point, .normal = wall.overlap.normal}, answered.at, answered.yielding);
-    return approach(at.contact, at.normal);
+    return approach(wall, at.contact, at.normal);
   };
   Approach best = approachAt(points.front());
   if (best.speed > restTolerance) return best;
@@ -188,7 +269,8 @@ Answer ContactSet::answerTo(const Manifold& struck, const Approach& first) const
   const double penetration = first.speed * settingsOf(struck).penetrationTime;
   const Outline& outline = vehicle_.outline;
   const auto alone = [&] {
-    return Answer{.at = approach(contactPoint(outline, place_, struck.segment, touch, penetration),
+    return Answer{.at = approach(struck,
+                                 contactPoint(outline, place_, struck.segment, touch, penetration),
                                  touch.normal)};
   };
   const Yielding yielding =
@@ -202,7 +284,7 @@ Answer ContactSet::answerTo(const Manifold& struck, const Approach& first) const
   pose.position += touch.depth * touch.normal + yielding.aside;
   Vector2 onwards = Vector2::Zero();
   if (reached > 0.0) {
-    onwards = reached / first.speed * velocityAt(vehicle_.body.motion, first.contact.arm);
+    onwards = reached / first.speed * relativeVelocity(struck, first.contact);
   }
   // An impulse makes it slower, and no less engaged.
   const Answer& before = struck.answered;
@@ -222,7 +304,9 @@ Answer ContactSet::answerTo(const Manifold& struck, const Approach& first) const
   const Approach whole{.contact = engaged.contact, .normal = engaged.normal};
   Approach at = between(end.at, whole, engaged.share);
   if (touch.byEnd) at.contact = engaged.contact;
-  return {.at = approach(at.contact, at.normal), .yielding = yielding.share, .onwards = onwards};
+  return {.at = approach(struck, at.contact, at.normal),
+          .yielding = yielding.share,
+          .onwards = onwards};
 }
 
 }  // namespace bumper

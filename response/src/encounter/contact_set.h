@@ -51,8 +51,8 @@ class ContactSet {
 
   void begin(std::span<const Segment> segments, std::span<const Surface> surfaces);
 
-  /// Finds what the outline touches where it is now, `time` seconds into the step: within
-  /// touchTolerance, along the direction of least penetration.
+  /// Finds what the outline touches where it and the walls are now, `time` seconds into the step:
+  /// within touchTolerance, along the direction of least penetration.
   void update(double time);
   /// After an update at the start of a step: if the walls that the outline was put into lead
   /// nowhere, all of them get one normal, the way out of all.
@@ -62,6 +62,7 @@ class ContactSet {
 
   [[nodiscard]] std::span<Manifold> all() { return manifolds_; }
   [[nodiscard]] std::span<const Manifold> all() const { return manifolds_; }
+  [[nodiscard]] bool anyMoves() const { return anyMoves_; }
   [[nodiscard]] const Surface& surfaceOf(const Manifold& wall) const {
     return surfaces_[static_cast<std::size_t>(wall.segment.surface)];
   }
@@ -69,11 +70,32 @@ class ContactSet {
     return *surfaceOf(wall).settings;
   }
   /// The id of the segment at a place of a wall.
-  [[nodiscard]] int pieceAt(const Manifold& wall, const Vector2& point) const {
-    return merge_.pieceAt(wall.segment, point);
+  [[nodiscard]] int pieceAt(const Manifold& wall, const Vector2& point) const;
+
+  /// The body that a wall belongs to, as it moves now: a fixed one, or a driven one.
+  [[nodiscard]] PlanarBody bodyOf(const Manifold& wall) const;
+  /// A wall where it is at another time, s into the step.
+  [[nodiscard]] Segment segmentAt(const Manifold& wall, double time) const;
+
+  /// The maximum acceleration of any gap between outline and wall in free flight, m/s².
+  [[nodiscard]] double gapAcceleration(const Manifold& wall) const;
+  /// A wall, and what touches it, carried on to another time.
+  struct Forecast {
+    Segment segment;
+    Overlap overlap;
+  };
+  [[nodiscard]] Forecast forecast(const Manifold& wall, double time) const;
+  [[nodiscard]] Participant seenFrom(const Manifold& wall) const;
+  /// Whether the wall's own direction changes.
+  [[nodiscard]] bool turns(const Manifold& wall) const {
+    return surfaceOf(wall).motion.yawRate != 0.0;
   }
 
-  [[nodiscard]] Approach approach(const ContactPoint& contact, const Vector2& normal) const;
+  /// How fast a wall itself moves at a contact, along its normal, m/s.
+  [[nodiscard]] double speedOf(const Manifold& wall, const Approach& at) const;
+
+  [[nodiscard]] Approach approach(const Manifold& wall, const ContactPoint& contact,
+                                  const Vector2& normal) const;
   /// Of the point of first touch and what else touches: the first if it approaches, else the
   /// fastest. After an answer to a wall that yields each is by that share the answer's contact.
   [[nodiscard]] Approach touching(const Manifold& wall, const Answer& answered = {}) const;
@@ -86,7 +108,12 @@ class ContactSet {
 
  private:
   static void setOverlap(Manifold& wall, const std::optional<Overlap>& overlap);
+  void moveWalls();
   void finish();
+  [[nodiscard]] Vector2 relativeVelocity(const Manifold& wall, const ContactPoint& contact) const;
+  [[nodiscard]] const Segment& givenSegment(const Manifold& wall) const {
+    return given_[static_cast<std::size_t>(&wall - manifolds_.data())];
+  }
   [[nodiscard]] bool isSideOfBody(const Segment& wall) const;
   [[nodiscard]] std::optional<double> depthOfStanding(const Manifold& wall) const;
   [[nodiscard]] bool standsWithoutWayOut() const;
@@ -100,8 +127,11 @@ class ContactSet {
   const Participant& vehicle_;
   std::span<const Surface> surfaces_;
   WallMerge merge_;
+  std::span<const Segment> given_;  // the merged walls where the step begins
+  bool anyMoves_ = false;
   std::vector<Manifold> manifolds_;
-  Placement place_;  // of the vehicle, when last updated
+  Placement place_;    // of the vehicle, when last updated
+  double time_ = 0.0;  // … s into the step
 };
 
 }  // namespace bumper

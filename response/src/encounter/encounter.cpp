@@ -117,14 +117,20 @@ Vector2 Encounter::recoveryVelocity(const Vector2& eased) const {
 // The next touch, and its wall; null if there is none before `until`.
 Encounter::NextTouch Encounter::nextTouch(double until) {
   NextTouch next{.time = until, .wall = nullptr};
-  const Sweep sweep(vehicle_.outline, vehicle_.body.motion);
+  const Sweep among(vehicle_.outline, vehicle_.body.motion);
   for (Manifold& wall : contacts_.all()) {
     if (wall.passed) continue;
     const double start = std::max(time_, wall.ignoredUntil);
     if (start > next.time) continue;
+    const auto wait = [&](const Sweep& sweep) {
+      return sweep.timeOfTouch(wall.segment, wall.touched ? &wall.overlap : nullptr, start - time_,
+                               next.time - time_);
+    };
     const double time =
-        time_ + sweep.timeOfTouch(wall.segment, wall.touched ? &wall.overlap : nullptr,
-                                  start - time_, next.time - time_);
+        time_ +
+        (contacts_.surfaceOf(wall).moves
+             ? wait(Sweep(vehicle_.outline, vehicle_.body.motion, contacts_.bodyOf(wall).motion))
+             : wait(among));
     if (time <= next.time) next = {.time = time, .wall = &wall};
   }
   return next;
@@ -134,13 +140,13 @@ Encounter::NextTouch Encounter::nextTouch(double until) {
 // than `unseenDepth`.
 double Encounter::quietTime(const Manifold& wall) const {
   const PlanarMotion& motion = vehicle_.body.motion;
-  const double acceleration = vehicle_.gapAcceleration();
+  const double acceleration = contacts_.gapAcceleration(wall);
   if (wall.hidden) return leastTime(unseenDepth, 0.0, acceleration);
   const Overlap& overlap = wall.overlap;
   const Vector2 tangent = turnedLeft(overlap.normal);
   double time = never;
   for (const ContactPoint& contact : wall.points.all()) {
-    const Vector2 velocity = velocityAt(motion, contact.arm);
+    const double speed = contacts_.approach(wall, contact, overlap.normal).speed;
     const double along = tangent.dot(contact.point);
     const bool isCorner =
         !overlap.byEnd && std::min(along - overlap.start, overlap.end - along) > touchTolerance;
@@ -148,8 +154,8 @@ double Encounter::quietTime(const Manifold& wall) const {
     // centre; at the step's end, too.
     const double highest = overlap.normal.dot(contact.arm) +
                            std::abs(motion.yawRate) * step_ * vehicle_.outline.radius();
-    if (!isCorner || highest > 0.0) {
-      time = std::min(time, leastTime(unseenDepth, -overlap.normal.dot(velocity), acceleration));
+    if (!isCorner || highest > 0.0 || contacts_.turns(wall)) {
+      time = std::min(time, leastTime(unseenDepth, speed, acceleration));
     }
   }
   return time;
@@ -170,14 +176,15 @@ std::span<const SpeculativeContact> Encounter::speculativeContacts(const PlanarM
   speculative_.begin(vehicle_.outline, motion, after, distance, h);
   vehicle_.body.motion = motion;
   contacts_.update(0.0);
-  const double fastest = vehicle_.fastest();
   for (const Manifold& wall : contacts_.all()) {
     const Surface& surface = contacts_.surfaceOf(wall);
     if (breaks(*surface.settings) || wall.hidden) continue;
     // A long force pulse allows penetration.
-    const double depth =
-        surface.entered ? surface.depth : enteredDepth(fastest, surface.settings->contactTime);
-    speculative_.addWall(wall.segment, wall.touched ? &wall.overlap : nullptr, depth);
+    const double depth = surface.entered ? surface.depth
+                                         : enteredDepth(contacts_.seenFrom(wall).fastest(),
+                                                        surface.settings->contactTime);
+    const ContactSet::Forecast then = contacts_.forecast(wall, h);
+    speculative_.addWall(then.segment, wall.touched ? &then.overlap : nullptr, depth);
   }
   return speculative_.all();
 }

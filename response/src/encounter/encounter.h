@@ -11,7 +11,7 @@ namespace bumper {
 
 /// One free body among fixed ones on one timeline. The step advances from one time of impact to the
 /// next; at each, an Instant ends the approach. An Island advances several of them.
-class Encounter {
+class BUMPER_HIDDEN Encounter {
  public:
   Encounter() = default;
   ~Encounter() = default;

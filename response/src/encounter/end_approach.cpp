@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/QR>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -16,6 +17,10 @@ using Motion = Eigen::Vector3d;
 // Fraction of the initial motion that counts as rounding.
 constexpr double noApproach = 1e-12;
 
+// Directions that span less than this are taken as one: between walls that close on a vehicle no
+// motion is possible, or one far faster than theirs.
+constexpr double parallel = 0.1;
+
 // A few rounds find the active directions; more would only follow rounding.
 constexpr int mostRounds = 64;
 
@@ -23,17 +28,24 @@ constexpr int mostRounds = 64;
 /// squares, after Lawson and Hanson. The active directions are linearly independent.
 class Stop {
  public:
-  Stop(const Motion& before, std::span<const Motion> all) : before_(before), all_(all) {
-    const double tolerance = noApproach * before.norm();
+  /// `least` is how far along each direction the motion must go at least: 0 for fixed walls.
+  Stop(const Motion& before, std::span<const Motion> all, std::span<const double> least)
+      : before_(before), all_(all), least_(least) {
+    double longest = before.norm();
+    for (const double each : least) {
+      anyMoves_ |= each != 0.0;
+      longest = std::max(longest, std::abs(each));
+    }
+    const double tolerance = noApproach * longest;
     for (int round = 0; round < mostRounds; ++round) {
       const Motion now = after();
-      const auto fastest = std::min_element(
-          all.begin(), all.end(),
-          [&](const Motion& a, const Motion& b) { return a.dot(now) < b.dot(now); });
-      if (count_ == mostCarryingPoints || fastest == all.end() || fastest->dot(now) >= -tolerance) {
-        return;
+      std::size_t fastest = 0;
+      const auto speed = [&](std::size_t i) { return all[i].dot(now) - least[i]; };
+      for (std::size_t i = 1; i < all.size(); ++i) {
+        if (speed(i) < speed(fastest)) fastest = i;
       }
-      which_[count_] = static_cast<std::size_t>(fastest - all.begin());
+      if (count_ == mostCarryingPoints || all.empty() || speed(fastest) >= -tolerance) return;
+      which_[count_] = fastest;
       far_[count_++] = 0.0;
       balance();
     }
@@ -45,31 +57,56 @@ class Stop {
 
   /// The remaining motion, without approach along the active directions.
   [[nodiscard]] Motion after() const {
+    if (!anyMoves_) return remaining(before_);
+    const Motion walls = motionOfWalls();
+    return walls + remaining(before_ - walls);
+  }
+
+ private:
+  // What is left of a motion if those directions have to be at right angles to it.
+  [[nodiscard]] Motion remaining(const Motion& motion) const {
     switch (count_) {
       case 0:
-        return before_;
+        return motion;
       case 1:
-        return before_ - way(0).dot(before_) * way(0);
+        return motion - way(0).dot(motion) * way(0);
       case 2: {
         // At right angles to both, however narrow the wedge between them.
         const Motion across = (way(1) - way(1).dot(way(0)) * way(0)).normalized();
         const Motion edge = way(0).cross(across);
-        return edge.dot(before_) / edge.squaredNorm() * edge;
+        return edge.dot(motion) / edge.squaredNorm() * edge;
       }
       default:
         return Motion::Zero();
     }
   }
 
- private:
+  [[nodiscard]] Eigen::Matrix3d ways() const {
+    Eigen::Matrix3d result = Eigen::Matrix3d::Zero();
+    for (std::size_t i = 0; i < count_; ++i) result.col(static_cast<Eigen::Index>(i)) = way(i);
+    return result;
+  }
+
+  // The shortest motion that goes along with all walls of the active directions.
+  [[nodiscard]] Motion motionOfWalls() const {
+    Motion speeds = Motion::Zero();
+    for (std::size_t i = 0; i < count_; ++i) {
+      speeds[static_cast<Eigen::Index>(i)] = least_[which_[i]];
+    }
+    return ways()
+        .transpose()
+        .jacobiSvd(Eigen::ComputeFullU | Eigen::ComputeFullV)
+        .setThreshold(parallel)
+        .solve(speeds);
+  }
+
   [[nodiscard]] const Motion& way(std::size_t i) const { return all_[which_[i]]; }
 
   // Solves for no approach along all active directions; drops those whose weight would be negative.
   void balance() {
     while (count_ > 0) {
-      Eigen::Matrix3d ways = Eigen::Matrix3d::Zero();
-      for (std::size_t i = 0; i < count_; ++i) ways.col(static_cast<Eigen::Index>(i)) = way(i);
-      const Motion wanted = ways.colPivHouseholderQr().solve(-before_);
+      const Motion relative = anyMoves_ ? Motion(before_ - motionOfWalls()) : before_;
+      const Motion wanted = ways().colPivHouseholderQr().solve(-relative);
       double share = 1.0;
       std::size_t first = count_;
       for (std::size_t i = 0; i < count_; ++i) {
@@ -95,6 +132,8 @@ class Stop {
 
   Motion before_;
   std::span<const Motion> all_;
+  std::span<const double> least_;
+  bool anyMoves_ = false;
   std::array<std::size_t, mostCarryingPoints> which_{};
   std::array<double, mostCarryingPoints> far_{};
   std::size_t count_ = 0;
@@ -111,9 +150,14 @@ SharedImpulse endApproach(const PlanarBody& body, std::span<const TouchingPoint>
     return Motion(point.normal.x(), point.normal.y(), cross(point.arm, point.normal) / radius);
   };
   const std::size_t count = std::min(points.size(), mostTouchingPoints);
-  for (std::size_t i = 0; i < count; ++i) ways[i] = wayOf(points[i]).normalized();
+  std::array<double, mostTouchingPoints> least;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Motion way = wayOf(points[i]);
+    ways[i] = way.normalized();
+    least[i] = points[i].wallSpeed / way.norm();
+  }
 
-  const Stop stop(before, std::span(ways.data(), count));
+  const Stop stop(before, std::span(ways.data(), count), std::span(least.data(), count));
   const Motion change = stop.after() - before;
   SharedImpulse result;
   result.sum = {.linear = mass * change.head<2>(), .angular = yawInertia / radius * change.z()};

@@ -12,6 +12,7 @@ namespace bumper {
 struct TouchingPoint {
   Vector2 normal = Vector2::Zero();
   Vector2 arm = Vector2::Zero();
+  double wallSpeed = 0.0;  ///< of the wall itself, along the normal, m/s
 };
 
 /// More never count at once.
@@ -37,7 +38,8 @@ struct SharedImpulse {
 
 /// The impulse that ends all approach at these points at once, without friction or rebound: of all
 /// motions in which none approaches it leads to the nearest one, in the measure of kinetic energy,
-/// so it never adds energy. At most mostTouchingPoints.
+/// so it never adds energy, as seen from the walls. Where walls that move leave no such motion,
+/// some approach remains. At most mostTouchingPoints.
 ///
 /// The sum does not depend on the order of the points. The shares make it up to rounding, each with
 /// its moment about the mass centre; where several sets of points could carry it, the order

@@ -58,8 +58,9 @@ Settled Instant::settle(double time, Effort effort) {
     }
     // Unless it approaches faster than it can have become since it was last looked at.
     const Overlap& overlap = next.wall->overlap;
-    const bool slides = time > 0.0 && overlap.byEnd && overlap.depth > freshDepth &&
-                        next.at.speed <= vehicle_.gapAcceleration() * step_ / looksInStep;
+    const bool slides =
+        time > 0.0 && overlap.byEnd && overlap.depth > freshDepth &&
+        next.at.speed <= contacts_.gapAcceleration(*next.wall) * step_ / looksInStep;
     const bool tooMany = effort == Effort::plastic || count >= plasticAfter ||
                          (!slides && answers_ >= plasticInStepAfter);
     Rebound rebound = slides ? Rebound::elastic : Rebound::as_set;
@@ -104,16 +105,25 @@ Instant::Next Instant::fastestStruckWall() {
       if (point.speed > next.at.speed) next = {.wall = &wall, .at = point};
     };
     const Approach& answered = wall.answered.at;
-    consider(contacts_.approach(answered.contact, answered.normal));
+    consider(contacts_.approach(wall, answered.contact, answered.normal));
     consider(contacts_.touching(wall, wall.answered));
   }
   return next;
 }
 
+// … without what only a record needs.
+Impact Instant::impactAt(const Manifold& wall, const Approach& at) const {
+  return {.point = at.contact.point,
+          .normal = at.normal,
+          .arm = at.contact.arm,
+          .otherArm = at.contact.point - contacts_.bodyOf(wall).motion.position};
+}
+
 void Instant::answer(const Next& next, double time, Rebound rebound) {
   Manifold& wall = *next.wall;
-  const ImpactResponse response = respond({.normal = next.at.normal, .arm = next.at.contact.arm},
-                                          vehicle_.body, contacts_.settingsOf(wall), rebound);
+  const ImpactResponse response =
+      respond(impactAt(wall, next.at), vehicle_.body, contacts_.bodyOf(wall),
+              contacts_.settingsOf(wall), rebound);
   record(wall, next.at, time, response);
   wall.struck = true;
   ++answers_;
@@ -130,7 +140,8 @@ std::span<const TouchingPoint> Instant::touchingPoints() {
     if (!wall.touched || wall.hidden || wall.passed) continue;
     const auto add = [&](const Approach& at) {
       if (count == points_.size()) return;
-      points_[count] = {.normal = at.normal, .arm = at.contact.arm};
+      points_[count] = {
+          .normal = at.normal, .arm = at.contact.arm, .wallSpeed = contacts_.speedOf(wall, at)};
       owners_[count++] = {.wall = &wall, .at = at};
     };
     const Answer answer = contacts_.answerTo(wall, contacts_.touching(wall));
@@ -139,7 +150,7 @@ std::span<const TouchingPoint> Instant::touchingPoints() {
       continue;
     }
     for (const ContactPoint& contact : wall.points.all()) {
-      add(contacts_.approach(contact, wall.overlap.normal));
+      add(contacts_.approach(wall, contact, wall.overlap.normal));
     }
   }
   return {points_.data(), count};
@@ -148,9 +159,9 @@ std::span<const TouchingPoint> Instant::touchingPoints() {
 void Instant::takePart(std::size_t point, const ContactImpulse& impulse, double energyChange,
                        double time) {
   const auto& [wall, at] = owners_[point];
-  const double energy = vehicle_.body.energy();
+  const double energy = contacts_.seenFrom(*wall).body.energy();
   ImpactResponse response =
-      plainResponse({.normal = at.normal, .arm = at.contact.arm}, vehicle_.body,
+      plainResponse(impactAt(*wall, at), vehicle_.body, contacts_.bodyOf(*wall),
                     onVehicle(impulse, at.normal, at.contact.arm));
   response.approachSpeed = at.speed;
   takeShare(response, energy, energyChange);
@@ -175,12 +186,14 @@ void Instant::answerTogether(double time) {
   PlanarBody after = before;
   after.apply(impulse.sum);
   double energy = before.energy();
-  const double change = after.energy() - energy;
   const auto weightOf = [&](const CarryingPoint& share) {
     return share.impulse * std::max(speedAt(share), 0.0);
   };
   double weight = 0.0;
   for (const CarryingPoint& share : shares) weight += weightOf(share);
+  // As seen from walls that move the approach ends at each of the points.
+  const bool anyMoves = contacts_.anyMoves();
+  const double change = anyMoves ? -0.5 * weight : after.energy() - energy;
 
   PlanarImpulse left = impulse.sum;
   for (const CarryingPoint& share : shares) {
@@ -192,9 +205,10 @@ void Instant::answerTogether(double time) {
     left.linear -= part.linear;
     left.angular -= part.angular;
     ImpactResponse response =
-        plainResponse({.normal = at.normal, .arm = at.contact.arm}, vehicle_.body, part);
+        plainResponse(impactAt(*wall, at), vehicle_.body, contacts_.bodyOf(*wall), part);
     if (last) response.after = after.motion;
     response.approachSpeed = at.speed;
+    if (anyMoves) energy = contacts_.seenFrom(*wall).body.energy();
     takeShare(response, energy, change * weightOf(share) / weight);
     energy = std::max(energy + response.contact.energyChange, 0.0);
     record(*wall, at, time, response);
@@ -205,11 +219,9 @@ void Instant::answerTogether(double time) {
 
 void Instant::record(const Manifold& wall, const Approach& at, double time,
                      const ImpactResponse& response) {
-  const Impact impact{.wall = contacts_.pieceAt(wall, at.contact.point),
-                      .point = at.contact.point,
-                      .normal = at.normal,
-                      .arm = at.contact.arm,
-                      .depth = std::max(wall.overlap.depth, 0.0)};
+  Impact impact = impactAt(wall, at);
+  impact.wall = contacts_.pieceAt(wall, at.contact.point);
+  impact.depth = std::max(wall.overlap.depth, 0.0);
   impacts_.push_back({.time = time, .impact = impact, .response = response});
   vehicle_.body.motion = response.after;
 }

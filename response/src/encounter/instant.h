@@ -63,6 +63,7 @@ class Instant {
 
   Next firstNewWall();
   Next fastestStruckWall();
+  [[nodiscard]] Impact impactAt(const Manifold& wall, const Approach& at) const;
   void answer(const Next& next, double time, Rebound rebound);
   void answerTogether(double time);
   void record(const Manifold& wall, const Approach& at, double time,

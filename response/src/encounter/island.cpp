@@ -275,7 +275,10 @@ void Island::collectContacts() {
     if (!each.involved || each.encounter->isHeld()) continue;
     const std::span<const TouchingPoint> points = each.encounter->instant().touchingPoints();
     for (std::size_t k = 0; k < points.size(); ++k) {
-      jointContacts_.push_back({.body = i, .normal = points[k].normal, .arm = points[k].arm});
+      jointContacts_.push_back({.body = i,
+                                .normal = points[k].normal,
+                                .arm = points[k].arm,
+                                .wallSpeed = points[k].wallSpeed});
       owners_.push_back({.member = static_cast<int>(i), .wall = k});
     }
   }

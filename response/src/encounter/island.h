@@ -15,7 +15,7 @@ namespace bumper {
 
 /// Several encounters on one timeline, and the pairs of them that may touch: see IslandStep. Each
 /// vehicle is advanced only when something happens to it.
-class Island {
+class BUMPER_HIDDEN Island {
  public:
   void resolve(std::span<const IslandMember> members, std::span<const IslandPair> pairs, double h);
   [[nodiscard]] StepOutcome outcome(std::size_t member) const;

@@ -30,8 +30,17 @@ Segment oriented(const Segment& wall, const Vector2& centre) {
   return result;
 }
 
+// Fixed, or parts of one body.
+bool moveAlike(const Surface& a, const Surface& b) {
+  if (!a.moves && !b.moves) return true;
+  return a.moves && b.moves && a.motion.position == b.motion.position &&
+         a.motion.yaw == b.motion.yaw && a.motion.velocity == b.motion.velocity &&
+         a.motion.yawRate == b.motion.yawRate;
+}
+
 bool answerAlike(const Surface& a, const Surface& b) {
   if (&a == &b) return true;
+  if (!moveAlike(a, b)) return false;
   return a.settings == b.settings && !a.entered && !b.entered && !breaks(*a.settings);
 }
 

@@ -19,7 +19,7 @@ double separatingSpeed(std::span<const PlanarBody> bodies, const JointContact& c
     speed +=
         contact.otherNormal.dot(velocityAt(bodies[contact.otherBody].motion, contact.otherArm));
   }
-  return speed;
+  return speed - contact.wallSpeed;
 }
 
 double share(const PlanarBody& body, const Vector2& normal, const Vector2& arm,
@@ -157,10 +157,13 @@ JointApproach::Result JointApproach::solve(std::span<const PlanarBody> bodies,
     act(bodies_, contacts[i], impulses_[i]);
     result.weight += impulses_[i] * std::max(-speeds_[i], 0.0);
   }
+  const bool anyMoves = std::any_of(contacts.begin(), contacts.end(),
+                                    [](const JointContact& each) { return each.wallSpeed != 0.0; });
   double change = 0.0;
   for (std::size_t i = 0; i < bodies.size(); ++i)
     change += bodies_[i].energy() - bodies[i].energy();
-  result.energyChange = std::min(change, 0.0);
+  // As seen from walls that move the approach ends at each contact.
+  result.energyChange = anyMoves ? -0.5 * result.weight : std::min(change, 0.0);
   return result;
 }
 

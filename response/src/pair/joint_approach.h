@@ -8,8 +8,8 @@
 
 namespace bumper {
 
-/// A contact of one body with a fixed one, or of two, as an impulse along its normal acts on them:
-/// each body's normal and arm in the frame of its motion.
+/// A contact of one body with a fixed or driven one, or of two, as an impulse along its normal acts
+/// on them: each body's normal and arm in the frame of its motion.
 struct JointContact {
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
@@ -19,6 +19,7 @@ struct JointContact {
   std::size_t otherBody = none;
   Vector2 otherNormal = Vector2::Zero();  ///< into the other one
   Vector2 otherArm = Vector2::Zero();
+  double wallSpeed = 0.0;  ///< of a fixed body that moves as prescribed, along the normal, m/s
 };
 
 /// The impulses that end all approach at many contacts of many bodies at once, without friction or

@@ -2,9 +2,10 @@
 
 #include <filesystem>
 
+#include "bumper/base/api.h"
 #include "file_scene.h"
 
-namespace bumper {
+namespace BUMPER_INTERNAL bumper {
 
 enum class Formats {
   own,  ///< those of loadTrustedScene(), chosen by the file's ending

@@ -5,9 +5,10 @@
 #include <string_view>
 #include <variant>
 
+#include "bumper/base/api.h"
 #include "file_scene.h"
 
-namespace bumper {
+namespace BUMPER_INTERNAL bumper {
 
 /// What the child process returns: what it read, or the text of an error.
 using ReadResult = std::variant<FileScene, std::string>;

@@ -8,13 +8,15 @@
 #include <span>
 #include <string>
 
+#include "bumper/base/api.h"
 #include "bumper/engine_adapter/barrier.h"
 #include "bumper/engine_adapter/saved_state.h"
 #include "bumper/engine_adapter/vehicle.h"
+#include "bumper/engine_adapter/world_axes.h"
 #include "bumper/response/impact_event.h"
 #include "bumper/scenes/scene.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// How an impulse reaches the bodies (the paper's two choices of implementation). Both lead to the
 /// same motion.
@@ -40,6 +42,8 @@ struct ResponderOptions {
   /// Whether a step skips walls that a vehicle cannot reach, and reuses the walls found in earlier
   /// steps. Off: every step queries all walls anew. The result is the same.
   bool skipping = true;
+  /// The world's up axis and length unit.
+  WorldAxes axes{};
 };
 
 /// What a step could not do as usual; a set of bits.
@@ -75,23 +79,26 @@ inline constexpr unsigned kinematic = 128;  ///< a body of a vehicle was made ki
 /// of the next one. Until then the body's velocity is not yet the one after the impact; velocity()
 /// and yawRate() return that.
 ///
-/// Vehicle frame: x forward, y left, z up in the chassis body's axes, origin at the mass centre of
-/// the chassis and its linked bodies. World: right-handed, z up, metres, double precision.
+/// Vehicle frame: x forward, y left, z up, origin at the mass centre of the chassis and its linked
+/// bodies; these are the chassis body's own axes unless VehicleOptions::axes says otherwise. World:
+/// right-handed, z up and metres unless ResponderOptions::axes says otherwise, double precision.
 ///
 /// Where joints or contacts act on a vehicle too, step() adds contact joints with the walls nearby
 /// for one step (ResponderOptions::guardContacts), in a joint group of its own. Until the world
 /// steps, a body of the responder's moves in it, to measure the step.
 ///
-/// Barriers stand still between calls of updateBarrier(): a scene, or a geom of the application's.
+/// Barriers stand still, but for those whose geom has a body, which move with that, and those that
+/// updateBarrier() is called for before each step.
 /// Nothing here touches data, callbacks or collision bits of the application's geoms and bodies.
 ///
-/// The end: best is the responder first, then geoms and spaces, then the world. Otherwise bodies
-/// must not be gone when a call reads them: step(), claims(), keepUnclaimed(), save() and what
-/// takes a VehicleId; only updateBarrier() reads geoms of the application's. removeVehicle(),
-/// removeBarrier() and the destructor read neither. The new geom of a barrier may be destroyed with
-/// its space, or by itself unless in a quadtree space, and be moved to a space connected with the
-/// old one: one is in the other, or both are in a third. Its walls act until removeBarrier(). A
-/// geom made in no space is destroyed by Bumper, and must not be in a space when that is destroyed.
+/// The end: best is the responder first, then geoms and spaces, then the world. Otherwise bodies,
+/// those of barriers too, must not be gone when a call reads them: step(), claims(),
+/// keepUnclaimed(), save() and what takes a VehicleId; only updateBarrier() reads geoms of the
+/// application's. removeVehicle(), removeBarrier() and the destructor read neither. The new geom of
+/// a barrier may be destroyed with its space, or by itself unless in a quadtree space, and be moved
+/// to a space connected with the old one: one is in the other, or both are in a third. Its walls
+/// act until removeBarrier(). A geom made in no space is destroyed by Bumper, and must not be in a
+/// space when that is destroyed.
 ///
 /// Set-up calls throw Error and then change nothing; step(), claims() and keepUnclaimed() do not
 /// throw, unless memory runs out. A moved-from responder can only be destroyed or assigned to. One
@@ -106,28 +113,55 @@ class Responder {
   Responder(Responder&& other) noexcept;
   Responder& operator=(Responder&& other) noexcept;
 
-  /// The walls of a scene, as a new trimesh geom in `options.space`, or as the shape of
-  /// `options.geom`. Other bodies collide with that geom as with any other. The scene is copied.
-  /// With a new geom its space gets a second one, by which Bumper detects the destruction of the
-  /// space: a sphere of radius 0 on a body of Bumper's, disabled, without category and collide
-  /// bits. No near callback receives it, but dSpaceGetNumGeoms() counts it; do not change it.
-  /// Throws Error if the scene is invalid or has no wall.
+  /// The walls of a scene in the world's axes and unit, as a new trimesh geom in `options.space`,
+  /// or as the shape of `options.geom`. Other bodies collide with that geom as with any other. The
+  /// scene is copied. With a new geom its space gets a second one, by which Bumper detects the
+  /// destruction of the space: a sphere of radius 0 on a body of Bumper's, disabled, without
+  /// category and collide bits. No near callback receives it, but dSpaceGetNumGeoms() counts it; do
+  /// not change it. Throws Error if the scene is invalid or has no wall.
   BarrierId addBarrier(const Scene& scene, const BarrierOptions& options = {});
 
   /// A geom that the application already has: the walls of a trimesh, road and walls in one, the
-  /// sides of a box, a plane, which is half of the world, or an upright cylinder. It must stand
-  /// still from now on, or updateBarrier() be called. ODE stores a trimesh's vertices in single
-  /// precision; they are read as stored. Throws Error if it is of another class, has a body, is
-  /// registered already or has no wall.
+  /// sides of a box, a plane, which is half of the world, an upright cylinder or capsule, or a
+  /// sphere; of round ends what is steeper than 45°, as a circle where that is widest within a
+  /// vehicle's band. A capsule that leans further is read as 24 flat sides. With a
+  /// body it moves as that does, whose velocity of before a step holds for the step: one that
+  /// forces move should be far heavier than vehicles, counts as infinitely heavy in the law, and
+  /// takes the opposite impulse. Without, it must stand still from now on, or updateBarrier() be
+  /// called. ODE stores a trimesh's vertices in single precision; they are read as stored. Throws
+  /// Error if it is of another class, belongs to a vehicle, is registered already or has no wall.
   BarrierId addBarrier(dGeomID geom, const BarrierOptions& options = {});
 
-  /// Call after the application has moved or changed a barrier's geom: its walls are read anew. Of
+  /// Every geom in a space, and in the spaces in it, that stands still and has a wall, as a barrier
+  /// of its own with these options; what has a body, is disabled or is a barrier already is passed
+  /// over. The result is as if each had been added by itself, and is valid until the next call for
+  /// that space. Throws Error if the space is null, was added already, or is a quadtree space or
+  /// holds one, whose content cannot be read; or if a setting is invalid.
+  const SpaceBarriers& addBarriers(dSpaceID space, const BarrierOptions& options = {});
+  /// Call after geoms came into such a space, left it, were destroyed or moved: new ones are added,
+  /// those that are gone removed, and those that stand differently moved, and those that are
+  /// sized differently read anew; others cost nothing. Until then the walls stay as they were. What
+  /// changes in a trimesh without its bounding box is for updateBarrier(). Throws Error as
+  /// addBarriers() does, and if the space was not added.
+  const SpaceBarriers& updateBarriers(dSpaceID space);
+  /// Removes those barriers. The space may be gone. Throws Error if it was not added.
+  void removeBarriers(dSpaceID space);
+
+  /// Call after the application has moved or changed a barrier's geom. If its shape is another, or
+  /// it leans otherwise, its walls are read anew, which costs as much as adding it. Of
   /// a barrier made from a scene, or whose shape is given as one, the scene as it is now takes the
   /// old one's place; its own geom is then a new one, in the same space. Id, name, settings and the
   /// contacts of vehicles are kept; a vehicle that it was moved into is freed by penetration
-  /// recovery, without an impulse. The last step's events are void. Costs as much as adding it.
-  /// Throws Error as addBarrier() does, and if the barrier's own geom was destroyed.
+  /// recovery, without an impulse. The last step's events are void. Throws
+  /// Error as addBarrier() does, and if the barrier's own geom was destroyed.
+  ///
+  /// A geom that was only moved costs next to nothing, also that of a scene: moved before each of
+  /// two steps in a row it has the velocity from one place to the next, and hits vehicles with it.
+  /// A velocity that is given holds for the coming step. One that is not updated before a step
+  /// stands still in it. A body that the geom has got or lost since is noticed. Throws Error if the
+  /// velocity is not finite, the geom has a body or is a plane.
   void updateBarrier(BarrierId barrier);
+  void updateBarrier(BarrierId barrier, const BarrierVelocity& velocity);
   void updateBarrier(BarrierId barrier, const Scene& scene);
 
   /// The geom in a barrier's contacts: the new one, which is null once its space was destroyed, or
@@ -168,7 +202,7 @@ class Responder {
   std::span<const ImpactEvent> step(double h);
 
   /// A vehicle's current pose in ODE: the common mass centre of its bodies, world, m, and the
-  /// rotation from its axes to the world's, a unit quaternion.
+  /// rotation from its axes (forward, left, up) to the world's, a unit quaternion.
   [[nodiscard]] Eigen::Vector3d position(VehicleId vehicle) const;
   [[nodiscard]] Eigen::Quaterniond orientation(VehicleId vehicle) const;
 
@@ -194,7 +228,7 @@ class Responder {
   /// Warnings of set-up calls about the registered vehicles and barriers. What falsifies an
   /// impulse: damping, speed limits, jointed bodies that are not linked. What lets a vehicle
   /// penetrate walls: geoms that project from the outline within the band by more than 1 cm, with
-  /// the figure. What is inconsistent: gravity that does not point along −z, a mass centre so low
+  /// the figure. What is inconsistent: gravity that does not point along −up, a mass centre so low
   /// that geoms would be in the ground. What may let a vehicle through a barrier: many triangles
   /// steeper than 45° that were taken for hillsides (WallReport::droppedOnGuess). Each is given
   /// once; valid until the next set-up call.

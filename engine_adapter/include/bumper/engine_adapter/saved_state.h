@@ -3,21 +3,24 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/engine_adapter/barrier.h"
 #include "bumper/engine_adapter/vehicle.h"
 #include "bumper/response/force_pulse.h"
 
 /// What a responder remembers from step to step, as plain data. Times are Responder::time(), s;
-/// world frame unless said otherwise.
-namespace bumper {
+/// world frame unless said otherwise, as zUp() of WorldAxes has it: in metres with z up, whatever
+/// the world's own axes and unit.
+namespace BUMPER_API bumper {
 
 /// A wall that a vehicle passes through: it broke and the outline has not left it yet, or its long
 /// force pulse still runs: those that isOneWall() says, of all barriers while a pulse runs, of one
 /// that broke those of its barrier with its settings.
 struct PassableWall {
   BarrierId barrier;
-  int settings = 0;                                  ///< number of the settings in the barrier
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();   ///< where it was hit, m
+  int settings = 0;  ///< number of the settings in the barrier
+  /// Where it was hit, m; of a barrier that moves as that stood when its walls were read.
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, into the vehicle
   double until = 0.0;                                ///< end of the pulse; 0 if it broke
   double depth = 0.0;                                ///< penetration that the pulse allows, m
@@ -93,10 +96,26 @@ struct VehicleMemory {
   std::vector<GuardLoad> guards;  ///< in a saved state only
 };
 
+/// How a barrier that moves stood before the last step, and moved.
+struct BarrierMotion {
+  BarrierId barrier;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of its body or else its geom, m
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< of that place, m/s
+  Eigen::Vector3d turning = Eigen::Vector3d::Zero();   ///< rad/s
+  // Of one that updateBarrier() has moved: when last, in how many successive steps, and where it
+  // was before that.
+  double moved = -1.0;
+  int moves = 0;
+  Eigen::Vector3d lastPosition = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d lastAxes = Eigen::Matrix3d::Identity();
+};
+
 /// All that a responder remembers: Responder::save() and restore().
 struct SavedState {
   double time = 0.0;
   std::vector<VehicleMemory> vehicles;
+  std::vector<BarrierMotion> barriers;  ///< those that move
 };
 
 }  // namespace bumper

@@ -2,7 +2,9 @@
 
 #include <mutex>
 
-namespace bumper {
+#include "bumper/base/api.h"
+
+namespace BUMPER_API bumper {
 
 /// ODE's trimesh collider keeps global state and is not thread safe in the usual builds: two
 /// threads that collide anything with a trimesh at the same time get wrong contacts, silently.

@@ -6,10 +6,12 @@
 #include <span>
 #include <string>
 
+#include "bumper/base/api.h"
+#include "bumper/engine_adapter/world_axes.h"
 #include "bumper/response/response_settings.h"
 #include "bumper/response/vehicle_parameters.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// Names a vehicle of one responder.
 struct VehicleId {
@@ -17,17 +19,18 @@ struct VehicleId {
   bool operator==(const VehicleId&) const = default;
 };
 
-/// The heights above the ground, m, measured along the vehicle's z axis, at which walls hit the
-/// outline. Whatever lies lower (kerbs) or higher (bridges) stays ODE's.
+/// The heights above the ground, in the world's length unit, measured along the vehicle's z axis,
+/// at which walls hit the outline. Whatever lies lower (kerbs) or higher (bridges) stays ODE's.
 struct Band {
   double bottom = 0.0;
   double top = 0.0;
 };
 
-/// 0.3 m to 0.2 m above the mass centre; for a very low mass centre from half its height.
+/// 0.3 m to 0.2 m above the mass centre; for a very low mass centre from half its height. Of
+/// parameters in metres.
 Band defaultBand(const VehicleParameters& vehicle);
 
-/// The paper's plate at mass-centre height.
+/// The paper's plate at mass-centre height, likewise.
 Band plateBand(const VehicleParameters& vehicle);
 
 /// How two vehicles of one responder respond to each other.
@@ -68,13 +71,17 @@ struct VehicleOptions {
   /// Sets ODE's finite rotation mode on the bodies. With ODE's usual rotation update yaw angles are
   /// off by (yaw rate · h)³ / 12 in each step; with this one, impacts are exact to rounding.
   bool finiteRotation = false;
+  /// Which way the chassis points in its own frame: x forward and z up, unless it was modelled in
+  /// another way. In a world where y is up, y usually is for the chassis too.
+  ChassisAxes axes{};
 };
 
 /// The parameters of a vehicle whose mass and yaw inertia are those of its ODE bodies, about their
-/// common mass centre. Throws Error on a null body.
+/// common mass centre. All in the world's length unit. Throws Error on a null body or invalid axes.
 VehicleParameters parametersFromBodies(dBodyID chassis, std::span<const dBodyID> linkedBodies,
                                        double massCentreToFront, double massCentreToRear,
-                                       double width, double massCentreHeight);
+                                       double width, double massCentreHeight,
+                                       const ChassisAxes& axes = {});
 
 /// The same with an outline that encloses the bodies' geoms as they lie now, at whatever height.
 /// The width is twice the distance from the mass centre to the farther side. Boxes, spheres,
@@ -83,6 +90,6 @@ VehicleParameters parametersFromBodies(dBodyID chassis, std::span<const dBodyID>
 /// as are rays and geoms without category and collide bits. Throws Error on a null body, if nothing
 /// can be measured, or if the mass centre does not lie between the geoms' ends.
 VehicleParameters parametersFromGeoms(dBodyID chassis, std::span<const dBodyID> linkedBodies,
-                                      double massCentreHeight);
+                                      double massCentreHeight, const ChassisAxes& axes = {});
 
 }  // namespace bumper

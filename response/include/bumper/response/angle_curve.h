@@ -4,9 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/response/planar_motion.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// A direction of attack on a wall, by its parts across and along it, ≥ 0 and in any unit. The
 /// paper's curves need the angle's cosine only, which costs much less than the angle.
@@ -49,8 +50,13 @@ class AngleCurve {
   /// Smallest and largest value over 0 to π/2.
   [[nodiscard]] std::pair<double, double> range() const;
 
- private:
+  /// What it was made of: a constant is a cosine with equal ends, a table has no ends.
   enum class Shape { cosine, half_cosine, table };
+  [[nodiscard]] Shape shape() const { return shape_; }
+  [[nodiscard]] double grazing() const { return grazing_; }
+  [[nodiscard]] double headOn() const { return headOn_; }
+
+ private:
   [[nodiscard]] double atCosine(double cosine) const;
   [[nodiscard]] double inTable(double angle) const;
 

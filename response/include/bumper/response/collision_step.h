@@ -4,11 +4,12 @@
 #include <span>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/response/segment.h"
 #include "bumper/response/speculative_contact.h"
 #include "bumper/response/step_outcome.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 class Encounter;
 class PaperStep;

@@ -4,9 +4,10 @@
 #include <cstddef>
 #include <span>
 
+#include "bumper/base/api.h"
 #include "bumper/response/touch.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// Where the response acts.
 struct ContactPoint {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bumper/base/api.h"
 #include "bumper/response/planar_body.h"
 
 /// One contact point between a vehicle and something else, as linear algebra. `normal` is a unit
@@ -9,7 +10,7 @@
 ///     Δv_n = A J_n + C J_t        Δv_t = C J_n + B J_t
 ///
 /// A and −C are the paper's h and k (Eqs. 15 and 16).
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// One of the two bodies in contact. The default is a barrier: at rest and of infinite mass.
 struct ContactBody {

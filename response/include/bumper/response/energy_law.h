@@ -1,8 +1,9 @@
 #pragma once
 
+#include "bumper/base/api.h"
 #include "bumper/response/restitution_law.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// Which root of Eq. 32 is wanted.
 enum class EnergyRoot {

@@ -3,9 +3,10 @@
 #include <array>
 #include <cstddef>
 
+#include "bumper/base/api.h"
 #include "bumper/response/planar_motion.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// A constant force at the mass centre and yaw moment for one step.
 struct PlanarForce {

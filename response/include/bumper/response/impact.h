@@ -1,10 +1,11 @@
 #pragma once
 
+#include "bumper/base/api.h"
 #include "bumper/response/angle_curve.h"
 #include "bumper/response/planar_body.h"
 #include "bumper/response/response_settings.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// One collision of a vehicle with a wall or another body: where and which way. Vectors are in the
 /// frame of the motion that it was found for.
@@ -13,7 +14,8 @@ struct Impact {
   Vector2 point = Vector2::Zero();   ///< contact point on the wall, m
   Vector2 normal = Vector2::Zero();  ///< unit, out of the wall into the vehicle
   Vector2 arm = Vector2::Zero();     ///< the vehicle's mass centre to the contact point, m
-  /// The other body's mass centre to the contact point, m; meaningless for a fixed wall.
+  /// The other body's mass centre, or the point of a moving barrier that its motion is given for,
+  /// to the contact point, m; meaningless for a fixed wall.
   Vector2 otherArm = Vector2::Zero();
   double depth = 0.0;  ///< of the overlap when it was detected, m
 };
@@ -25,7 +27,9 @@ struct ImpactResponse {
   double restitution = 0.0;    ///< e(α), or the result of the energy law
   double friction = 0.0;       ///< μ(α)
   double energyAsked = 1.0;    ///< P(α); NaN under the restitution law
-  double energyRatio = 1.0;    ///< yaw-plane energy of all free bodies after / before
+  /// Yaw-plane energy of all free bodies after / before; of one that hits a moving barrier as seen
+  /// from that.
+  double energyRatio = 1.0;
   EnergyOutcome outcome = EnergyOutcome::not_asked;
   bool brokeThrough = false;  ///< the vehicle goes on through the wall, EnergyRoot::break_through
   ContactSolution contact;
@@ -58,7 +62,8 @@ ImpactResponse respond(const Impact& impact, const PlanarBody& vehicle,
 
 /// The same on another body, which takes the opposite impulse. The angle of attack is that of the
 /// velocity relative to it (by AngleDefinition::heading still the vehicle's), the energies of the
-/// energy law and of the result are those of both bodies, a driven one's left out.
+/// energy law and of the result are those of both bodies, or the vehicle's as seen from a driven
+/// one.
 ImpactResponse respond(const Impact& impact, const PlanarBody& vehicle, const PlanarBody& other,
                        const ResponseSettings& settings, Rebound rebound = Rebound::as_set);
 

@@ -3,9 +3,10 @@
 #include <Eigen/Core>
 #include <string_view>
 
+#include "bumper/base/api.h"
 #include "bumper/response/impact.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 enum class EventPhase {
   impact,  ///< one impulse with an approach speed above the settings' rest speed, or above
@@ -55,6 +56,7 @@ struct ImpactEvent {
   double yawRateAfter = 0.0;
   double speedBefore = 0.0;  ///< of the mass centre in the yaw plane
   double speedAfter = 0.0;
+  Eigen::Vector3d velocityBefore = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocityAfter = Eigen::Vector3d::Zero();
   double energyAsked = 1.0;  ///< P; NaN under the restitution law
   double energyRatio = 1.0;

@@ -3,9 +3,10 @@
 #include <memory>
 #include <span>
 
+#include "bumper/base/api.h"
 #include "bumper/response/collision_step.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 class Island;
 

@@ -4,10 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "bumper/base/api.h"
 #include "bumper/response/planar_motion.h"
 #include "bumper/response/vehicle_parameters.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// A rectangle along the axes of a vehicle's own frame, m.
 struct PlanRectangle {

@@ -2,11 +2,12 @@
 
 #include <optional>
 
+#include "bumper/base/api.h"
 #include "bumper/response/impact.h"
 #include "bumper/response/outline.h"
 #include "bumper/response/vehicle_parameters.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// One of two vehicles that may hit each other: its data, and its motion in the plane in which they
 /// meet.

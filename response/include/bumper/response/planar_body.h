@@ -3,10 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "bumper/base/api.h"
 #include "bumper/response/planar_motion.h"
 #include "bumper/response/vehicle_parameters.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// A rigid body in a yaw plane. A free one has finite mass and yaw inertia; a fixed one, the
 /// default, has neither and is at rest; a driven one has neither and moves as prescribed.

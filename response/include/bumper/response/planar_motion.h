@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 
-namespace bumper {
+#include "bumper/base/api.h"
+
+namespace BUMPER_API bumper {
 
 /// A vector in a vehicle's yaw plane (z up, so that a turn from x to y is positive).
 using Vector2 = Eigen::Vector2d;

@@ -4,12 +4,13 @@
 #include <span>
 #include <string_view>
 
+#include "bumper/base/api.h"
 #include "bumper/response/response_settings.h"
 
 /// Response settings with a source. Each is a starting point to copy and change. Unless one says
 /// otherwise: Method::bumper, the restitution law, the angle by the contact point's velocity,
 /// Coulomb friction, a penetration time of 2.5 ms.
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// "paper": Knight and Bernard 2003, what a default ResponseSettings holds. From grazing (0°) to
 /// head-on (90°) e falls from 0.3 to 0.05, μ from 0.3 to 0 and the remaining energy P from 0.92 to

@@ -1,10 +1,11 @@
 #pragma once
 
+#include "bumper/base/api.h"
 #include "bumper/response/angle_curve.h"
 #include "bumper/response/energy_law.h"
 #include "bumper/response/restitution_law.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 enum class Method {
   bumper,  ///< the paper's scheme with its gaps closed

@@ -1,8 +1,9 @@
 #pragma once
 
+#include "bumper/base/api.h"
 #include "bumper/response/contact_solve.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// How the contact point slides in an impact.
 enum class Regime {

@@ -1,8 +1,9 @@
 #pragma once
 
+#include "bumper/base/api.h"
 #include "bumper/response/planar_motion.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 struct ResponseSettings;
 
@@ -40,6 +41,14 @@ struct Surface {
   /// penetration allowed, m.
   bool entered = false;
   double depth = 0.0;
+  /// The walls belong to a body that moves as prescribed, whatever hits it: their segments are
+  /// where they are at the step's start, and move with it. `motion` is the body's then, of a point
+  /// of it that moves straight, in the same plane.
+  bool moves = false;
+  PlanarMotion motion{};
 };
+
+/// A segment that belongs to a body, after the body has moved.
+Segment carried(const Segment& segment, const Placement& before, const Placement& after);
 
 }  // namespace bumper

@@ -4,9 +4,10 @@
 #include <cstddef>
 #include <span>
 
+#include "bumper/base/api.h"
 #include "bumper/response/contact_point.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// A point where outline and wall may meet within a step: a constraint for an engine's own solver,
 /// so that no load pushes the vehicle through. In the frame of the motion that it was found for.
@@ -40,8 +41,8 @@ class SpeculativeContacts {
   /// end if nothing but walls acts. `distance`, m, is the largest gap of interest.
   void begin(const Outline& outline, const PlanarMotion& start, const PlanarMotion& end,
              double distance, double step);
-  /// `touch` is the result of findTouch() at the start, or null. `depth` is the penetration
-  /// allowed, m.
+  /// `wall` is where it is at the end, and so is `touch`, the result of findTouch() at the start,
+  /// or null. `depth` is the penetration allowed, m.
   void addWall(const Segment& wall, const Overlap* touch, double depth);
   [[nodiscard]] std::span<const SpeculativeContact> all() const {
     return {contacts_.data(), count_};

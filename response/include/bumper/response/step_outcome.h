@@ -2,9 +2,10 @@
 
 #include <span>
 
+#include "bumper/base/api.h"
 #include "bumper/response/impact.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// An impact of one step and the response to it. Its impulse acts at its arm, and leads from the
 /// motion before to the motion after.

@@ -2,9 +2,10 @@
 
 #include <limits>
 
+#include "bumper/base/api.h"
 #include "bumper/response/touch.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// A contact point that approaches more slowly than this, m/s, is at rest to rounding.
 inline constexpr double restTolerance = 1e-9;
@@ -17,26 +18,27 @@ inline constexpr double never = std::numeric_limits<double>::max();
 double leastTime(double distance, double rate, double acceleration);
 
 /// Continuous collision detection: the outline in free flight from time 0 on, at constant velocity
-/// and yaw rate.
+/// and yaw rate, and walls that rest, or belong to a body that moves so too.
 class Sweep {
  public:
-  /// `motion` is the vehicle's at time 0.
-  Sweep(const Outline& outline, const PlanarMotion& motion);
+  /// `motion` is the vehicle's at time 0, `walls` that of the walls' body: at rest by default.
+  Sweep(const Outline& outline, const PlanarMotion& motion, const PlanarMotion& walls = {});
 
   /// The first time in [from, until], s, at which a point of the outline and a point of the wall
   /// touch while they approach each other: a corner and a face, an end and a side, a post and
-  /// either. `touch` is the result of findTouch() at `from`, or null. `never` if there is none.
-  /// Exact to rounding, whatever the speed and the step. Points that already overlap count again
-  /// once they have separated.
+  /// either. `wall` is where it is at time 0. `touch` is the result of findTouch() at `from`, in
+  /// the axes of time 0, or null. `never` if there is none. Exact to rounding, whatever the speed
+  /// and the step. Points that already overlap count again once they have separated.
   [[nodiscard]] double timeOfTouch(const Segment& wall, const Overlap* touch, double from,
                                    double until) const;
 
  private:
   Outline outline_;
-  PlanarMotion motion_;
+  PlanarMotion motion_;  // as seen from the walls, which turn about the pivot by `spin_`, rad/s
+  Vector2 pivot_;
+  double spin_;
   Placement start_;
-  double speed_;    // of the mass centre, m/s
-  double fastest_;  // no point of the outline is faster, m/s
+  double speed_;  // of the mass centre, as seen from walls that do not turn, m/s
 };
 
 }  // namespace bumper

@@ -2,10 +2,11 @@
 
 #include <optional>
 
+#include "bumper/base/api.h"
 #include "bumper/response/outline.h"
 #include "bumper/response/segment.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// Points of an outline and a wall that are no further apart than this touch, m.
 inline constexpr double touchTolerance = 1e-9;
@@ -24,6 +25,10 @@ struct Overlap {
   bool byEnd = false;    ///< an end of the wall, or a post, meets a side or a corner of the
                          ///< outline: the normal is not the wall's own
 };
+
+/// The overlap with a wall that belongs to a body, after the body has moved, and with it what
+/// overlaps.
+Overlap carried(const Overlap& overlap, const Placement& before, const Placement& after);
 
 /// The part of a segment inside the outline.
 struct Interference {

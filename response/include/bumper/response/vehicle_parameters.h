@@ -1,6 +1,8 @@
 #pragma once
 
-namespace bumper {
+#include "bumper/base/api.h"
+
+namespace BUMPER_API bumper {
 
 /// The vehicle data of the response: the six parameters of the paper's section "Initialization".
 /// The four dimensions span the outline, a rectangle in the vehicle's yaw plane.

@@ -3,9 +3,10 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/scenes/walls.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// Distance from a point to the nearest wall in the horizontal plane, m, whatever the heights; 0
 /// above or below a wall that leans, infinite if there is no wall. Looks at every wall: for checks,

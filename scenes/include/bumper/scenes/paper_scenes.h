@@ -4,9 +4,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/scenes/scene.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// The paper's test scene (Figure 8): an L-shaped wall on flat ground, 612 triangles. For a car
 /// that starts at the origin, heading along +x.

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace bumper {
+#include "bumper/base/api.h"
+
+namespace BUMPER_API bumper {
 
 /// A named part of a scene with one material.
 struct SceneMesh {

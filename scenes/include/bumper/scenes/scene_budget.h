@@ -2,7 +2,9 @@
 
 #include <cstddef>
 
-namespace bumper {
+#include "bumper/base/api.h"
+
+namespace BUMPER_API bumper {
 
 struct Scene;
 

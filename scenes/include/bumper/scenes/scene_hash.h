@@ -2,9 +2,10 @@
 
 #include <cstdint>
 
+#include "bumper/base/api.h"
 #include "bumper/scenes/scene.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// A hash of a scene's geometry, equal for scenes with the same one: FNV-1a of 64 bits over, each
 /// in little-endian byte order, the numbers of vertices and of triangles (64 bits), the vertices'

@@ -2,10 +2,11 @@
 
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/scenes/scene.h"
 #include "bumper/scenes/walls.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// How far the foot of a wall reaches, m: in front of the wall as seen from above, on either side,
 /// and below it.

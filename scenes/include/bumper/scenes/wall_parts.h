@@ -2,9 +2,10 @@
 
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/scenes/walls.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// The role of a scene's triangle beside the walls selected from the scene.
 struct WallPart {

@@ -6,9 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/scenes/walls.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// A straight corridor: a rectangle in the horizontal plane.
 struct PlanStrip {

@@ -7,9 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/scenes/scene.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// One triangle that a vehicle can hit: one of the paper's "vertical elements". The triangles that
 /// make up a whole barrier or building are as many walls.

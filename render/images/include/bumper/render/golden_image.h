@@ -3,10 +3,11 @@
 #include <filesystem>
 #include <string>
 
+#include "bumper/base/api.h"
 #include "bumper/render/image.h"
 #include "bumper/render/image_compare.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 struct GoldenOptions {
   ImageCompareOptions compare{};

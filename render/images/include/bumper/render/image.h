@@ -6,7 +6,9 @@
 #include <utility>
 #include <vector>
 
-namespace bumper {
+#include "bumper/base/api.h"
+
+namespace BUMPER_API bumper {
 
 /// 8 bits per channel, sRGB.
 struct Rgb {

@@ -1,8 +1,9 @@
 #pragma once
 
+#include "bumper/base/api.h"
 #include "bumper/render/image.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// When two pictures count as the same. The defaults detect an edge that moved by a pixel, a car
 /// that turned by as much at its ends, or a missing mark, but not another processor's

@@ -6,9 +6,10 @@
 #include <ostream>
 #include <utility>
 
+#include "bumper/base/api.h"
 #include "bumper/render/golden_image.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// A GoogleMock matcher around compareWithGolden(); made by MatchesGolden().
 class GoldenMatcher {

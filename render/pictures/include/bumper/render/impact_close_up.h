@@ -2,12 +2,13 @@
 
 #include <cstddef>
 
+#include "bumper/base/api.h"
 #include "bumper/render/image.h"
 #include "bumper/render/offscreen_backend.h"
 #include "bumper/render/recording.h"
 #include "bumper/scenes/scene.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 struct CloseUpOptions {
   int width = 1280;  ///< pixels, 640 to 8192 and what the driver allows
@@ -22,9 +23,13 @@ struct CloseUpOptions {
 /// leaves the outline, and the midpoint between them, at which the impulse acts. Where outline and
 /// wall only touch, a and b are one point.
 ///
+/// Of two vehicles both outlines are drawn in their paints, with both velocities, the opposite
+/// impulses, and the overlap that both reach in the default penetration time, carried back by the
+/// mean of their motions; numbers of both. One that was not recorded then is only named.
+///
 /// World x points right and y up. The outline stands where the impact's arm puts it, with the
-/// heading that was recorded at its time. The velocity before is the one after without what the
-/// impulse added.
+/// heading that was recorded at its time. A velocity before that is not known is the one after
+/// without what the impulse added.
 ///
 /// `impact` is the impact's index in the recording. Throws Error if there is no such impact, if its
 /// vehicle was not recorded at its time, on an invalid scene, on a size outside its range, or if

@@ -2,7 +2,9 @@
 
 #include <vector>
 
-namespace bumper {
+#include "bumper/base/api.h"
+
+namespace BUMPER_API bumper {
 
 /// The library that draws without a window. Both are parts of Mesa and need no graphics card; EGL
 /// uses one if it finds one.

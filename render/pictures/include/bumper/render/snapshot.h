@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/render/image.h"
 #include "bumper/render/offscreen_backend.h"
 #include "bumper/render/recording.h"
 #include "bumper/render/vehicle_meshes.h"
 #include "bumper/scenes/scene.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// Where the camera stands. The first two frame the run, not the scene, by themselves.
 enum class SnapshotView {

@@ -4,13 +4,14 @@
 #include <memory>
 #include <optional>
 
+#include "bumper/base/api.h"
 #include "bumper/render/image.h"
 #include "bumper/render/offscreen_backend.h"
 #include "bumper/render/recording.h"
 #include "bumper/render/snapshot.h"
 #include "bumper/scenes/scene.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// Draws many pictures of one scene: keeps what does not change between them, which is a context of
 /// the driver with its compiled shaders, the scene's prepared geometry, vehicle bodies and letters.

@@ -4,9 +4,10 @@
 #include <memory>
 #include <string>
 
+#include "bumper/base/api.h"
 #include "bumper/scenes/scene.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// By vehicle name: what to draw instead of the car-like body, for instance from loadScene(). Its
 /// x axis points forward and z up. It keeps its size and is placed with the middle of its bounding

@@ -3,9 +3,10 @@
 #include <cstddef>
 #include <filesystem>
 
+#include "bumper/base/api.h"
 #include "bumper/render/recording.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// Writes `events.csv`, every field of every impact of the recording, and `trajectory.csv`, the
 /// poses of the vehicle with the given index (without vehicles the header alone), into a folder,

@@ -2,7 +2,9 @@
 
 #include <numbers>
 
-namespace bumper {
+#include "bumper/base/api.h"
+
+namespace BUMPER_API bumper {
 
 /// A radian in degrees, in which people read angles.
 inline constexpr double degrees = 180.0 / std::numbers::pi;

@@ -9,11 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/render/run_description.h"
 #include "bumper/response/impact_event.h"
 #include "bumper/response/vehicle_parameters.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// Where a vehicle is and how it moves at one instant. World frame: right-handed, z up, SI units.
 struct RecordedPose {
@@ -44,6 +45,14 @@ class RecordedImpact {
   std::string material_;
 };
 
+/// The impact as a vehicle sees it: as it is for the one that the event is about; with all that is
+/// its own and the other's exchanged for the other one, whose angles of the centre's velocity and
+/// the heading are NaN, not known; nothing for a vehicle that takes no part.
+std::optional<ImpactEvent> asSeenBy(std::string_view vehicle, const ImpactEvent& event);
+
+/// How hard an impact is: the larger Δv of those that take part and are known, m/s.
+double hardness(const ImpactEvent& event);
+
 struct RecordedVehicle {
   std::string name;
   VehicleParameters parameters;
@@ -70,10 +79,12 @@ class Recording {
   /// time lies before that of the vehicle's last pose.
   void addPose(std::size_t vehicle, const RecordedPose& pose);
 
-  /// Adds an impact of the vehicle that the event names. Throws Error if there is no such vehicle;
-  /// if the time, the contact point, the normal, the arm, the impulse, Δv, a speed, a yaw rate or
-  /// the velocity after is not finite; if the normal is not of unit length to 0.001; or if the time
-  /// lies before that of the vehicle's last impact. The other numbers may be NaN: not known.
+  /// Adds an impact of the vehicle that the event names; the other vehicle need not be recorded.
+  /// Throws Error if there is no such vehicle, or it is its own other one; if the time, the contact
+  /// point, the normal, the arm, the impulse, Δv, a speed, a yaw rate or the velocity after is not
+  /// finite; if the velocity before or anything of the other vehicle's is infinite; if the normal
+  /// is not of unit length to 0.001; or if the time lies before that of the vehicle's last impact.
+  /// The other numbers may be NaN: not known.
   void addImpact(const ImpactEvent& event);
 
   [[nodiscard]] std::span<const RecordedVehicle> vehicles() const { return vehicles_; }

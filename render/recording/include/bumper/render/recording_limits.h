@@ -2,7 +2,9 @@
 
 #include <cstddef>
 
-namespace bumper {
+#include "bumper/base/api.h"
+
+namespace BUMPER_API bumper {
 
 /// What a recording file may ask of its reader. A kilobyte of text can ask for a film of a year:
 /// what is above these is an Error that names the limit. Each may be set to whatever is needed.

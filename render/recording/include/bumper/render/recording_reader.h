@@ -8,11 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/render/recording.h"
 #include "bumper/render/recording_limits.h"
 #include "bumper/render/run_description.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// A part of a recording file.
 struct RecordingSpan {

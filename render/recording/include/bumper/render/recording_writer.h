@@ -10,10 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/render/recording.h"
 #include "bumper/render/run_description.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// Writes a recording file while the run goes on: the same calls as Recording's, but nothing is
 /// kept in memory (about 100 kB and, for the index, 16 bytes for each of the last 1024 impacts).

@@ -6,9 +6,10 @@
 #include <string>
 #include <variant>
 
+#include "bumper/base/api.h"
 #include "bumper/scenes/scene.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// What an application states of a run or a vehicle, under names of its own: numbers, in SI units
 /// unless the name has another, and words. A number that is not finite counts as unknown.

@@ -4,12 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/render/image.h"
 #include "bumper/render/recording.h"
 #include "bumper/render/vehicle_meshes.h"
 #include "bumper/scenes/scene.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 struct ContactSheetOptions {
   int pictureWidth = 420;   ///< pixels, 160 to 2000
@@ -22,10 +23,10 @@ struct ContactSheetOptions {
 };
 
 /// One picture of the whole run: on top the run from above, below it a row for each impact,
-/// in the order of time, with its number, time, Δv, speeds and yaw rates, and pictures of the
-/// vehicle at instants around it, from where least of it is hidden. An impact within 0.3 s of a
-/// harder one of the same vehicle is named in that one's row instead. Earlier instants are ghosts.
-/// Where the run has not begun or is over, a place is empty.
+/// in the order of time, with its number, time, Δv, speeds and yaw rates, of both if two
+/// vehicles hit each other, and pictures of them at instants around it, from where least is hidden.
+/// An impact within 0.3 s of a harder one of the same vehicle is named in that one's row instead.
+/// Earlier instants are ghosts. Where the run has not begun or is over, a place is empty.
 ///
 /// Throws Error on an invalid scene, an option outside its range, a recording without poses, a
 /// sheet larger than Image::maxSide, or if the driver fails.

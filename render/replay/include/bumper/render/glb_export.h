@@ -3,11 +3,12 @@
 #include <filesystem>
 #include <limits>
 
+#include "bumper/base/api.h"
 #include "bumper/render/recording.h"
 #include "bumper/render/vehicle_meshes.h"
 #include "bumper/scenes/scene.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// What an animated GLB file holds.
 struct GlbOptions {

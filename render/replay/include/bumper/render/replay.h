@@ -6,12 +6,13 @@
 #include <optional>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/render/image.h"
 #include "bumper/render/recording.h"
 #include "bumper/render/snapshot.h"
 #include "bumper/scenes/scene.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// How a replay's time maps to the recording's.
 struct ReplayTiming {

@@ -3,9 +3,10 @@
 #include <filesystem>
 #include <memory>
 
+#include "bumper/base/api.h"
 #include "bumper/render/image.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// Encodes pictures as a film through the program ffmpeg, which the environment variable
 /// BUMPER_FFMPEG names; without it, the one that PATH finds. It runs as a child process, to which

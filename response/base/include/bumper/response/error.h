@@ -3,7 +3,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace bumper {
+#include "bumper/base/api.h"
+
+namespace BUMPER_API bumper {
 
 /// The one exception type of the library. Thrown by set-up calls and by reading and writing files,
 /// never by a simulation step. The message names the offending value or file, its unit, and what is

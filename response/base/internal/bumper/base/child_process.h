@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
-namespace bumper {
+#include "bumper/base/api.h"
+
+namespace BUMPER_INTERNAL bumper {
 
 /// Which of a child's standard streams are connected to this process. The others are /dev/null.
 struct ChildStreams {

@@ -4,7 +4,9 @@
 
 #include <utility>
 
-namespace bumper {
+#include "bumper/base/api.h"
+
+namespace BUMPER_INTERNAL bumper {
 
 /// A file descriptor that is closed with its scope unless it is released.
 class Descriptor {

@@ -8,9 +8,10 @@
 #include <optional>
 #include <string_view>
 
+#include "bumper/base/api.h"
 #include "bumper/base/descriptor.h"
 
-namespace bumper {
+namespace BUMPER_INTERNAL bumper {
 
 /// Makes a folder and those above it unless they exist; does nothing for an empty path. Throws
 /// Error, naming the folder, if that fails.

@@ -3,7 +3,9 @@
 #include <string>
 #include <string_view>
 
-namespace bumper {
+#include "bumper/base/api.h"
+
+namespace BUMPER_INTERNAL bumper {
 
 /// What a program may print of text that it did not write itself: control characters, marks that
 /// turn the direction of writing and bytes that are not UTF-8 are shown as \n, \x1B or \u202E.

@@ -7,10 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "bumper/base/api.h"
 #include "bumper/scenes/scene.h"
 #include "bumper/scenes/scene_budget.h"
 
-namespace bumper {
+namespace BUMPER_API bumper {
 
 /// The axis of a file that points up. A scene's own is always z.
 enum class UpAxis { x, y, z };

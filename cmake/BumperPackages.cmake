@@ -1,0 +1,65 @@
+# Debian packages of shared libraries (preset "package", then cpack): the libraries, what compiling
+# with them needs, and the tools.
+if(NOT PROJECT_IS_TOP_LEVEL OR NOT BUILD_SHARED_LIBS)
+  return()
+endif()
+
+set(CPACK_PACKAGE_NAME bumper)
+set(CPACK_PACKAGE_VENDOR bumper)
+set(CPACK_PACKAGE_CONTACT "The authors of Bumper <bumper@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
+set(CPACK_GENERATOR DEB)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_STRIP_FILES ON)
+
+# What changes with the library's version is named after it, so that two may be installed.
+set(library_package libbumper${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+set(same_library "${library_package} (= ${PROJECT_VERSION})")
+
+# bumper_debian_package(<group> <name> <section>): what shared libraries it needs is found by looking.
+macro(bumper_debian_package group name section)
+  string(TOUPPER ${group} upper)
+  set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${name})
+  set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section})
+  set(CPACK_DEBIAN_${upper}_PACKAGE_SHLIBDEPS ON)
+  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/${name} RENAME copyright
+          COMPONENT ${group}_copyright EXCLUDE_FROM_ALL)
+endmacro()
+bumper_debian_package(library ${library_package} libs)
+bumper_debian_package(development libbumper-dev libdevel)
+bumper_debian_package(tools bumper-tools graphics)
+
+# Bumper's own libraries are of the same version; what headers include is known by name alone.
+get_property(components GLOBAL PROPERTY BUMPER_COMPONENTS)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "")
+foreach(component IN LISTS components)
+  get_target_property(folder bumper_${component} BINARY_DIR)
+  list(APPEND CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${folder})
+endforeach()
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${same_library}, libeigen3-dev")
+if(BUMPER_ENGINE_ADAPTER)
+  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libode-dev")
+endif()
+set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "${same_library}")
+# Films and plots.
+set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "ffmpeg, gnuplot-nox | gnuplot")
+
+set(CPACK_COMPONENTS_ALL library_copyright development_copyright tools tools_copyright)
+foreach(component IN LISTS components)
+  list(APPEND CPACK_COMPONENTS_ALL ${component} ${component}_runtime)
+endforeach()
+include(CPack)
+cpack_add_component_group(library)
+cpack_add_component_group(development)
+cpack_add_component_group(tools)
+cpack_add_component(library_copyright GROUP library)
+cpack_add_component(development_copyright GROUP development)
+cpack_add_component(tools GROUP tools)
+cpack_add_component(tools_copyright GROUP tools)
+foreach(component IN LISTS components)
+  cpack_add_component(${component} GROUP development)
+  cpack_add_component(${component}_runtime GROUP library)
+endforeach()
