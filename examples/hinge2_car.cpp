@@ -111,11 +111,10 @@ void run(Game& game, const char* file) {
     dSpaceCollide(game.space, &game, nearCallback);
     // Your own forces belong here, before step().
     for (const bumper::ImpactEvent& event : responder.step(step)) {
+      if (event.phase != bumper::EventPhase::impact) continue;  // a lasting contact
       recording.addImpact(event);
-      if (event.phase == bumper::EventPhase::impact) {
-        std::printf("%.3f s: %.1f m/s at the contact, %.0f N s\n", event.time, event.approachSpeed,
-                    event.impulseNormal);
-      }
+      std::printf("%.3f s: %.1f m/s at the contact, %.0f N s\n", event.time, event.approachSpeed,
+                  event.impulseNormal);
     }
     dWorldQuickStep(game.world, step);  // the same step
     dJointGroupEmpty(game.contacts);

@@ -101,7 +101,7 @@ auto withScene(const Responder::Implementation& responder, const Scene& scene, c
   return use(responder.worldFrame.scene(scene));
 }
 
-// After barriers have changed.
+// After barriers have changed or gone.
 void lookAround(Responder::Implementation& responder) noexcept {
   responder.longestPenetrationTime = 0.0;
   responder.movingBarriers.clear();
@@ -128,9 +128,11 @@ BarrierId add(Responder::Implementation& responder, const BarrierOptions& option
   responder.barrierOfGeom.insert_or_assign(barrier->geom(), barrier.get());
 
   if (warning) responder.warnings.add(barrier.get(), std::move(*warning));
+  responder.longestPenetrationTime =
+      std::max(responder.longestPenetrationTime, barrier->longestPenetrationTime());
   responder.barriers.push_back(std::move(barrier));
   ++responder.nextBarrier;
-  lookAround(responder);
+  responder.forgetSurroundings();
   return id;
 }
 
