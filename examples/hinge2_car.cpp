@@ -82,6 +82,10 @@ void nearCallback(void* data, dGeomID a, dGeomID b) {
 }
 
 void run(Game& game, const char* file) {
+  dWorldSetGravity(game.world, 0, 0, -9.81);
+  dCreatePlane(game.space, 0, 0, 1, 0);  // the ground
+  addCar(game);
+
   // After what it refers to, so that it is gone before.
   bumper::Responder responder(game.world);
   game.responder = &responder;
@@ -129,13 +133,9 @@ int main(int argc, char** argv) {
   dInitODE2(0);
   {
     Game game;
-    dWorldSetGravity(game.world, 0, 0, -9.81);
-    dCreatePlane(game.space, 0, 0, 1, 0);  // the ground
-    addCar(game);
     try {
       run(game, argc > 1 ? argv[1] : "hinge2_car.jsonl");
-    } catch (const std::exception&
-                 error) {  // of set-up calls and of the recording; step() throws nothing
+    } catch (const std::exception& error) {  // set-up calls and the recording throw, step() not
       std::fprintf(stderr, "%s\n", error.what());
       status = 1;
     }
