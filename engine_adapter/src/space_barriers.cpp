@@ -156,9 +156,9 @@ const SpaceBarriers& Responder::addBarriers(dSpaceID space, const BarrierOptions
   group->options = options;
   group->scenery = options.walls.scenery;
   group->options.walls.scenery = group->scenery;
-  self.spaces.reserve(self.spaces.size() + 1);
   try {
     refresh(*this, self, *group);
+    self.spaces.reserve(self.spaces.size() + 1);
   } catch (...) {
     removeAll(*this, self, group->members);
     throw;
