@@ -108,3 +108,7 @@ install(FILES LICENSE CHANGELOG.md README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}
 foreach(folder response scenes engine_adapter render render/tools examples)
   install(FILES ${folder}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT base)
 endforeach()
+file(GLOB pages ${PROJECT_SOURCE_DIR}/engine_adapter/docs/*.md)
+install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_DOCDIR}/engine_adapter/docs COMPONENT base)
+install(FILES examples/hinge2_car.cpp examples/threads.cpp examples/wall_in_c.c examples/test_rail.png
+        DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT base)

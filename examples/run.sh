@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs the main job: the paper's test rail and course, a
-# fence that breaks, then a drive on a real race track. Recordings, pictures, films and tables go to
-# out/.
+# fence that breaks, vehicles that hit each other, then a drive on a real race track. Recordings,
+# pictures, films and tables go to out/.
 #   --no-download   leaves out the real track unless it is there already
 #   --dry-run       shows the packages and stops
 set -euo pipefail
@@ -19,8 +19,8 @@ done
 
 mkdir -p "$root/build"
 install_packages build
-configure_and_build --target test_rail course break_through wall_in_c bumper-drive bumper-replay bumper-plot \
-  bumper-read-scene
+configure_and_build --target test_rail course break_through hinge2_car vehicles two_hosts \
+  wall_in_c bumper-drive bumper-replay bumper-plot bumper-read-scene
 cd "$root"
 
 # show FOLDER [OPTION of bumper-plot]...: everything that the tools make of a recording.
@@ -44,6 +44,27 @@ say "A lap of the course"
 
 say "Through a fence"
 "$build/bin/break_through" out/break_through
+
+say "A car on hinge2 wheels"
+mkdir -p out/hinge2_car
+"$build/bin/hinge2_car" out/hinge2_car/run.jsonl
+"$build/bin/bumper-replay" sheet out/hinge2_car/run.jsonl out/hinge2_car/sheet.png
+
+say "Vehicles against vehicles"
+"$build/bin/vehicles" out/vehicles
+show out/vehicles/intersection
+for scene in chain motorway gate; do
+  folder=out/vehicles/$scene
+  "$build/bin/bumper-replay" closeups "$folder/run.jsonl" "$folder/closeups" --impacts 4
+  "$build/bin/bumper-replay" sheet "$folder/run.jsonl" "$folder/sheet.png" --impacts 4
+  "$build/bin/bumper-replay" glb "$folder/run.jsonl" "$folder/replay.glb"
+  printf "  $folder/%s\n" closeups sheet.png replay.glb
+done
+"$build/bin/bumper-replay" video out/vehicles/chain/run.jsonl out/vehicles/chain/replay.mp4
+printf "  %s\n" out/vehicles/chain/replay.mp4
+
+say "Two hosts"
+"$build/bin/two_hosts" --impacts 10000
 
 say "A wall, from C"
 "$build/bin/wall_in_c"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs the tests.
-#   --long          adds the long suites
+#   --long          adds the long suites, and the fuzz targets if there is clang
 #   --no-download   leaves out real tracks and the GLB validator unless they are there already
 #   --dry-run       shows the packages and stops
 set -euo pipefail
@@ -30,6 +30,8 @@ say "Tests"
 cd "$build"
 if [ "$long" = 1 ]; then
   ctest --output-on-failure -j "$(nproc)"
+  # Where clang is there anyway; BUMPER_FUZZ_SECONDS=0 leaves it out.
+  if [ "${BUMPER_FUZZ_SECONDS:-10}" != 0 ] && command -v clang++ >/dev/null; then "$root/tests/fuzz/fuzz.sh"; fi
 else
   ctest --output-on-failure -j "$(nproc)" --label-exclude long
 fi

@@ -207,14 +207,29 @@ void BarrierMesh::buildMesh() {
   // Single precision rounds by 6e-8 of the largest coordinate, in the tree and in the box.
   margin_ = 1e-4 + 1e-6 * (high_ - low_).norm();
 
+  keepFineWalls();
   const std::scoped_lock guard(trimeshLock());
   data_ = trimeshOf(walls_.vertices(), walls_.indices());
-  queryGeom_.reset(dCreateTriMesh(nullptr, data_.get(), nullptr, nullptr, nullptr));
-  dGeomTriMeshSetCallback(queryGeom_.get(), &noContact);
-  dGeomTriMeshSetArrayCallback(queryGeom_.get(), &collectTriangles);
-  const Eigen::Vector3d& origin = walls_.origin();
-  dGeomSetPosition(queryGeom_.get(), origin.x(), origin.y(), origin.z());
+  if (!othersIndices_.empty()) othersData_ = trimeshOf(walls_.vertices(), othersIndices_);
+  if (fine_.isEmpty() || othersData_) {
+    dTriMeshDataID data = fine_.isEmpty() ? data_.get() : othersData_.get();
+    queryGeom_.reset(dCreateTriMesh(nullptr, data, nullptr, nullptr, nullptr));
+    dGeomTriMeshSetCallback(queryGeom_.get(), &noContact);
+    dGeomTriMeshSetArrayCallback(queryGeom_.get(), &collectTriangles);
+    const Eigen::Vector3d& origin = walls_.origin();
+    dGeomSetPosition(queryGeom_.get(), origin.x(), origin.y(), origin.z());
+  }
   report_.memory = memory();
+}
+
+void BarrierMesh::keepFineWalls() {
+  fine_ = FineWalls(walls_);
+  if (fine_.isEmpty()) return;
+  for (std::size_t i = 0; i < walls_.size(); ++i) {
+    if (fine_.has(i)) continue;
+    others_.push_back(static_cast<int>(i));
+    for (std::size_t k = 0; k < 3; ++k) othersIndices_.push_back(walls_.indices()[3 * i + k]);
+  }
 }
 
 // Other bodies collide with it in the world.
@@ -240,7 +255,9 @@ std::size_t BarrierMesh::memory() const {
   const std::size_t trees = worldData_ ? 2 : 1;
   return walls_.memory() + plan_.memory() + parts_.capacity() * sizeof(Part) +
          feet_.capacity() * sizeof(Foot) + worldVertices_.capacity() * sizeof(double) +
-         trees * (walls_.size() - 1) * treeNodeSize;
+         fine_.memory() + others_.capacity() * sizeof(int) +
+         othersIndices_.capacity() * sizeof(dTriIndex) +
+         (trees * (walls_.size() - 1) + others_.size()) * treeNodeSize;
 }
 
 WallPart BarrierMesh::partOf(int triangle) const {
@@ -270,10 +287,15 @@ bool BarrierMesh::reaches(const Eigen::Vector3d& centre, double radius) const {
 
 void BarrierMesh::list(dGeomID box, std::vector<int>& walls) const {
   walls.clear();
-  const std::scoped_lock guard(trimeshLock());
-  dGeomSetData(queryGeom_.get(), &walls);
-  dContactGeom unused;
-  dCollide(box, queryGeom_.get(), 1, &unused, sizeof unused);
+  if (!queryGeom_) return;
+  {
+    const std::scoped_lock guard(trimeshLock());
+    dGeomSetData(queryGeom_.get(), &walls);
+    dContactGeom unused;
+    dCollide(box, queryGeom_.get(), 1, &unused, sizeof unused);
+  }
+  if (fine_.isEmpty()) return;
+  for (int& wall : walls) wall = others_[static_cast<std::size_t>(wall)];
 }
 
 }  // namespace bumper

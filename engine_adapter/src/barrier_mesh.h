@@ -11,6 +11,7 @@
 #include "bumper/scenes/wall_feet.h"
 #include "bumper/scenes/wall_parts.h"
 #include "bumper/scenes/wall_plan.h"
+#include "fine_walls.h"
 #include "lent_geom.h"
 #include "ode_handles.h"
 #include "wall_table.h"
@@ -67,6 +68,8 @@ class BarrierMesh {
   /// How far the other walls lean from the vertical at most: m aside for each m up.
   [[nodiscard]] double lean() const { return lean_; }
 
+  /// Those that list() leaves out.
+  [[nodiscard]] const FineWalls& fineWalls() const { return fine_; }
   /// Fills `walls` with the indices of those that ODE's collider finds at the box. The collider
   /// works in single precision: make the box larger by margin() on every side.
   void list(dGeomID box, std::vector<int>& walls) const;
@@ -93,11 +96,16 @@ class BarrierMesh {
   void keepWalls(const Scene& scene, const Walls& selected);
   void makePlan(std::vector<Wall> walls);
   void buildMesh();
+  void keepFineWalls();
   void lendGeom(const WorldFrame& frame, dSpaceID space);
   [[nodiscard]] std::size_t memory() const;
 
   std::string name_;
   WallTable walls_;
+  FineWalls fine_;
+  // Of the walls that are not fine, if some are: their numbers and indices.
+  std::vector<int> others_;
+  std::vector<dTriIndex> othersIndices_;
   WallPlan plan_;
   WallReport report_;
   std::vector<std::string> materials_;
@@ -112,7 +120,8 @@ class BarrierMesh {
 
   // Each is destroyed after those that are built on it.
   OwnTriMeshData data_;
-  OwnGeom queryGeom_;  // in no space; carries our callbacks
+  OwnTriMeshData othersData_;
+  OwnGeom queryGeom_;  // in no space; carries our callbacks; null if all walls are fine
   // The same walls in the world's axes and unit, if these are not Bumper's: for lent_.
   std::vector<double> worldVertices_;
   OwnTriMeshData worldData_;

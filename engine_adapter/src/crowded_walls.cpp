@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 namespace bumper {
 
@@ -32,19 +30,6 @@ std::int64_t rowOf(std::uint64_t place) {
   return static_cast<std::int64_t>(place & ((std::uint64_t{1} << bits) - 1));
 }
 
-// Unit, counter-clockwise.
-const Vector2& direction(std::size_t k) {
-  static const auto all = [] {
-    std::array<Vector2, 16> result;
-    for (std::size_t i = 0; i < result.size(); ++i) {
-      const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / 16.0;
-      result.at(i) = {std::cos(angle), std::sin(angle)};
-    }
-    return result;
-  }();
-  return all.at(k);
-}
-
 // Deeper than what slides within a step: the outline was put there.
 bool isDeepIn(const Outline& outline, const Vector2& point) {
   constexpr double deep = 0.05;
@@ -55,6 +40,7 @@ bool isDeepIn(const Outline& outline, const Vector2& point) {
 }  // namespace
 
 void CrowdedWalls::reduce(std::vector<Segment>& segments, const Outline& outline) {
+  keepEntered_ = segments.size() <= mostEntered;
   double size = smallestCell;
   for (int i = 0; i <= doublings && segments.size() > most; ++i, size *= 2.0) {
     reduced_.clear();
@@ -134,20 +120,15 @@ void CrowdedWalls::joinCells() {
 }
 
 void CrowdedWalls::addOutsides(const std::vector<Segment>& segments, const Outline& outline) {
-  Outside nothing;
-  nothing.fill({-std::numeric_limits<double>::infinity(), 0, Vector2::Zero()});
-  outsides_.assign(cells_.size(), nothing);
+  outsides_.assign(cells_.size(), {});
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const std::size_t crowd = crowdOf(i);
     Outside& outside = outsides_[crowd];
     for (std::size_t member = cells_[i].first; member < cells_[i].last; ++member) {
       const std::size_t number = members_[member].segment;
       for (const Vector2& point : {segments[number].start, segments[number].end}) {
-        cells_[crowd].isEntered |= isDeepIn(outline, point);
-        for (std::size_t k = 0; k < directions; ++k) {
-          const double distance = direction(k).dot(point);
-          if (distance > outside[k].distance) outside[k] = {distance, number, point};
-        }
+        cells_[crowd].isEntered |= keepEntered_ && isDeepIn(outline, point);
+        outside.include(point, number);
       }
     }
   }
@@ -163,24 +144,20 @@ void CrowdedWalls::addOutsides(const std::vector<Segment>& segments, const Outli
   }
 }
 
-// The sides between points that are extreme in some direction, in the order of the directions.
+// Where all is one point, the first segment is all that there is.
 void CrowdedWalls::addOutside(const std::vector<Segment>& segments, const Outside& outside) {
   const std::size_t before = reduced_.size();
-  for (std::size_t k = 0; k < directions; ++k) {
-    const Extreme& from = outside[k];
-    const Extreme& to = outside[(k + 1) % directions];
-    const Vector2 along = to.point - from.point;
-    const double length = along.norm();
-    if (!(length > 0.0)) continue;
-    Segment side = segments[from.segment];
-    side.start = from.point;
-    side.end = to.point;
-    side.normal = Vector2(along.y(), -along.x()) / length;
-    reduced_.push_back(side);
+  outside.forEachSide(
+      [&](const Outside::Extreme& from, const Outside::Extreme& to, const Vector2& normal) {
+        Segment side = segments[from.owner];
+        side.start = from.point;
+        side.end = to.point;
+        side.normal = normal;
+        reduced_.push_back(side);
+      });
+  if (reduced_.size() == before) {
+    reduced_.push_back(segments[outside.extremes().front().owner]);
   }
-  // There and back again is one wall, and a point that is all what there was.
-  if (reduced_.size() == before) reduced_.push_back(segments[outside[0].segment]);
-  if (reduced_.size() == before + 2) reduced_.pop_back();
 }
 
 }  // namespace bumper

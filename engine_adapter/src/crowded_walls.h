@@ -7,6 +7,7 @@
 
 #include "bumper/response/outline.h"
 #include "bumper/response/segment.h"
+#include "outside.h"
 
 namespace bumper {
 
@@ -17,12 +18,15 @@ class CrowdedWalls {
  public:
   /// So many segments are no crowd.
   static constexpr std::size_t most = 128;
+  /// More are reduced even where a vehicle was put into them.
+  static constexpr std::size_t mostEntered = 512;
 
   /// Segments of a surface that lie close together become the convex polygon around them, if there
   /// are too many in all: crowds of up to 0.2 m, or twice that and so on up to 1.6 m until there
   /// are not. Its corners are ends of these segments; what stands out of it does so by less than
   /// 2 % of the crowd's size. A side has the id of a segment that ends at it. A crowd that the
-  /// outline, in its own frame, was put into stays as it is: its parts lead out each by itself.
+  /// outline, in its own frame, was put into stays as it is: its parts lead out each by itself. Not
+  /// among more than mostEntered.
   void reduce(std::vector<Segment>& segments, const Outline& outline);
 
  private:
@@ -39,14 +43,6 @@ class CrowdedWalls {
     std::uint64_t place;
     std::size_t segment;
   };
-  struct Extreme {
-    double distance;
-    std::size_t segment;
-    Vector2 point;
-  };
-  static constexpr std::size_t directions = 16;
-  using Outside = std::array<Extreme, directions>;
-
   void findCells(const std::vector<Segment>& segments, double size);
   void joinCells();
   [[nodiscard]] std::size_t crowdOf(std::size_t cell) const;
@@ -54,6 +50,7 @@ class CrowdedWalls {
   void addOutsides(const std::vector<Segment>& segments, const Outline& outline);
   void addOutside(const std::vector<Segment>& segments, const Outside& outside);
 
+  bool keepEntered_ = true;
   std::vector<Member> members_;
   std::vector<Cell> cells_;
   std::vector<Outside> outsides_;  // by cell

@@ -49,12 +49,14 @@ void NearbyWalls::list(const Envelope& vehicle,
   const double radius =
       vehicle.radius() + std::max(margins_.front, margins_.rear) + margins_.side + margins_.height;
   faces_.clear();
+  withFine_.clear();
   surfaces_.clear();
   owners_.clear();
   for (const std::unique_ptr<Barrier>& barrier : barriers) {
     if (barrier->frame().moves() || !barrier->mayComeWithin(centre_, radius)) continue;
     listWalls(*barrier, vehicle, state, margins_);
   }
+  standingFine_ = withFine_.size();
   standingFaces_ = faces_.size();
   standingSurfaces_ = surfaces_.size();
   isKnown_ = true;
@@ -86,6 +88,10 @@ void NearbyWalls::listWalls(const Barrier& barrier, const Envelope& vehicle,
                             const VehicleState& state, const WallQuery::Margins& margins) {
   if (barrier.mesh() != nullptr) {
     listFaces(barrier, query_.list(*barrier.mesh(), vehicle, state, margins));
+    const FineWalls& fine = barrier.mesh()->fineWalls();
+    if (fine.isEmpty()) return;
+    withFine_.push_back(&barrier);
+    fine.forEachMesh([&](int wall) { surfaceNumber(barrier, wall); });
     return;
   }
   faces_.push_back({.barrier = &barrier,
@@ -164,15 +170,44 @@ std::optional<Segment> NearbyWalls::pieceOf(const Near& near, const Envelope& ve
   return piece;
 }
 
+void NearbyWalls::addFineWalls(const Envelope& vehicle, const VehicleState& state,
+                               const PlanRectangle& within) {
+  for (const Barrier* barrier : withFine_) {
+    const BarrierFrame& frame = barrier->frame();
+    const VehicleState seen = frame.moves() ? frame.toFrame(state) : state;
+    const WallTable& table = barrier->mesh()->walls();
+    barrier->mesh()->fineWalls().find(vehicle, seen, within, fine_);
+    for (const FineWalls::Crowd& crowd : fine_) {
+      Segment side;
+      side.id = static_cast<int>(faces_.size());
+      side.surface = surfaceNumber(*barrier, crowd.wall);
+      faces_.push_back({.barrier = barrier,
+                        .walls = table.faceOf(static_cast<std::size_t>(crowd.wall)),
+                        .surface = side.surface});
+      crowd.outside.forEachSide(
+          [&](const Outside::Extreme& from, const Outside::Extreme& to, const Vector2& normal) {
+            side.start = from.point;
+            side.end = to.point;
+            side.normal = normal;
+            segments_.push_back(side);
+          });
+    }
+  }
+}
+
 void NearbyWalls::collect(const Envelope& vehicle, const BarrierList& barriers,
                           const VehicleState& state, const Question& question) {
   if (!covers(vehicle, state, question.reach)) list(vehicle, barriers.all, state, question.reach);
   faces_.resize(standingFaces_);
+  withFine_.resize(standingFine_);
   surfaces_.resize(standingSurfaces_);
   owners_.resize(standingSurfaces_);
   if (!barriers.moving.empty()) listMoving(vehicle, barriers.moving, state, question.reach);
   listedSurfaces_ = surfaces_.size();
   segments_.clear();
+  listedFaces_ = faces_.size();
+  const PlanRectangle within = vehicle.outline().enlarged(question.reach);
+  if (!withFine_.empty()) addFineWalls(vehicle, state, within);
   VehicleState fromMoving;
   const auto seenFrom = [&](const Near& near) -> const VehicleState& {
     const BarrierFrame& frame = near.barrier->frame();
@@ -180,7 +215,7 @@ void NearbyWalls::collect(const Envelope& vehicle, const BarrierList& barriers,
     fromMoving = frame.toFrame(state);
     return fromMoving;
   };
-  if (!question.evenIfNoneIsThere && !wasThere_) {
+  if (segments_.empty() && !question.evenIfNoneIsThere && !wasThere_) {
     const auto mayBeThere = [&](const Near& each) {
       return mayMeet(each, vehicle, seenFrom(each), question.around);
     };
@@ -190,9 +225,9 @@ void NearbyWalls::collect(const Envelope& vehicle, const BarrierList& barriers,
     rectangle.half.array() += piece.radius;
     return !rectangle.misses(piece.start, piece.end);
   };
-  const PlanRectangle within = vehicle.outline().enlarged(question.reach);
-  wasThere_ = false;
-  for (std::size_t i = 0; i < faces_.size(); ++i) {
+  wasThere_ = std::any_of(segments_.begin(), segments_.end(),
+                          [&](const Segment& piece) { return meets(question.around, piece); });
+  for (std::size_t i = 0; i < listedFaces_; ++i) {
     const VehicleState& seen = seenFrom(faces_[i]);
     if (!mayMeet(faces_[i], vehicle, seen, within)) continue;
     const std::optional<Segment> piece = pieceOf(faces_[i], vehicle, seen, question.reach);

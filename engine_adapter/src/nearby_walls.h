@@ -12,6 +12,7 @@
 #include "bumper/response/collision_step.h"
 #include "crowded_walls.h"
 #include "envelope.h"
+#include "fine_walls.h"
 #include "vehicle_bodies.h"
 #include "wall_face.h"
 #include "wall_query.h"
@@ -108,6 +109,8 @@ class NearbyWalls {
                                         const VehicleState& state, double reach);
   void list(const Envelope& vehicle, const std::vector<std::unique_ptr<Barrier>>& barriers,
             const VehicleState& state, double reach);
+  void addFineWalls(const Envelope& vehicle, const VehicleState& state,
+                    const PlanRectangle& within);
   void listWalls(const Barrier& barrier, const Envelope& vehicle, const VehicleState& state,
                  const WallQuery::Margins& margins);
   void listFaces(const Barrier& barrier, std::span<const int> walls);
@@ -121,9 +124,13 @@ class NearbyWalls {
   // Those that stand still come first, and are known until the vehicle leaves the region; then come
   // those that move, of this step.
   std::vector<Near> faces_;
+  std::size_t listedFaces_ = 0;  // the first of them; then one for each crowd of fine walls
+  std::vector<const Barrier*> withFine_;  // barriers that may be near
+  std::vector<FineWalls::Crowd> fine_;
   std::vector<Surface> surfaces_;
   std::vector<Owner> owners_;  // of the surfaces
   std::size_t standingFaces_ = 0;
+  std::size_t standingFine_ = 0;
   std::size_t standingSurfaces_ = 0;
   std::size_t listedSurfaces_ = 0;  // the first of both; what comes after is entered
   std::vector<Segment> segments_;

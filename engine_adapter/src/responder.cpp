@@ -101,7 +101,7 @@ auto withScene(const Responder::Implementation& responder, const Scene& scene, c
   return use(responder.worldFrame.scene(scene));
 }
 
-// After barriers have changed.
+// After barriers have changed or gone.
 void lookAround(Responder::Implementation& responder) noexcept {
   responder.longestPenetrationTime = 0.0;
   responder.movingBarriers.clear();
@@ -123,14 +123,19 @@ BarrierId add(Responder::Implementation& responder, const BarrierOptions& option
   auto barrier = makeBarrier(responder, id, options, std::move(name), source...);
   std::optional<std::string> warning = warningOf(*barrier);
   makeRoom(responder.barriers, 1);
-  responder.movingBarriers.reserve(responder.barriers.size() + 1);
+  if (responder.movingBarriers.capacity() <= responder.barriers.size()) {
+    responder.movingBarriers.reserve(responder.barriers.capacity());
+  }
   responder.warnings.makeRoom(1);
   responder.barrierOfGeom.insert_or_assign(barrier->geom(), barrier.get());
 
   if (warning) responder.warnings.add(barrier.get(), std::move(*warning));
+  responder.longestPenetrationTime =
+      std::max(responder.longestPenetrationTime, barrier->longestPenetrationTime());
+  if (barrier->frame().moves()) responder.movingBarriers.push_back(barrier.get());
   responder.barriers.push_back(std::move(barrier));
   ++responder.nextBarrier;
-  lookAround(responder);
+  responder.forgetSurroundings();
   return id;
 }
 

@@ -103,8 +103,9 @@ struct BUMPER_HIDDEN Responder::Implementation {
            (options.vehiclesCollide || !pairOptions.empty());
   }
 
-  /// Of the bodies' numbers.
-  void refreshCopies() const;
+  // In worlds with other axes or units alone, and out of step()'s way in others.
+  [[gnu::noinline]] void refreshCopies() const;  ///< of the bodies' numbers
+  [[gnu::noinline]] void tellInWorld();          ///< the events
   /// The step of those vehicles that are not certainly away from all walls and other vehicles.
   void stepAll(std::span<Vehicle* const> some, double h);
   /// Corrects deliveries that the world's last step did not carry out as expected.

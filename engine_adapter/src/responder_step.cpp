@@ -86,9 +86,7 @@ std::span<const ImpactEvent> Responder::step(double h) {
   }
   if (hasPairs) self.findCompany(h);
   if (self.activeCount > 0) self.stepAll(self.activeNow(), h);
-  if (!self.worldFrame.isUsual()) {
-    for (ImpactEvent& event : self.events) event = self.worldFrame.eventInWorld(event);
-  }
+  if (!self.worldFrame.isUsual()) self.tellInWorld();
   self.time += h;
   self.lastStep = h;
   sortByTime(self.events);
@@ -99,6 +97,10 @@ void Responder::Implementation::refreshCopies() const {
   for (const std::unique_ptr<Vehicle>& vehicle : vehicles) {
     if (vehicle->bodies.areCopied()) vehicle->bodies.refresh();
   }
+}
+
+void Responder::Implementation::tellInWorld() {
+  for (ImpactEvent& event : events) event = worldFrame.eventInWorld(event);
 }
 
 void Responder::Implementation::stepAll(std::span<Vehicle* const> some, double h) {

@@ -30,12 +30,12 @@ GeomStand standOf(dGeomID geom) {
   return stand;
 }
 
-// Those that stand still, the oldest first, as ODE has them.
+// Those that stand still, in ODE's order, the only one in which it lists them at once.
 void collect(dSpaceID space, std::vector<dGeomID>& geoms) {
   if (dSpaceGetClass(space) == dQuadTreeSpaceClass) {
     throw Error("addBarriers: the content of a quadtree space cannot be read");
   }
-  for (int i = dSpaceGetNumGeoms(space) - 1; i >= 0; --i) {
+  for (int i = 0; i < dSpaceGetNumGeoms(space); ++i) {
     const dGeomID geom = dSpaceGetGeom(space, i);
     if (dGeomIsSpace(geom) != 0) {
       collect(reinterpret_cast<dSpaceID>(geom), geoms);
@@ -99,6 +99,7 @@ BarrierId renewed(Responder& responder, const Responder::Implementation& self,
 void refresh(Responder& responder, const Responder::Implementation& self, BarrierSpace& group) {
   std::vector<dGeomID> geoms;
   collect(group.space, geoms);
+  std::reverse(geoms.begin(), geoms.end());  // the oldest first
   std::erase_if(group.members, [&](const BarrierSpace::Member& each) {
     return !isRegistered(self, each.barrier);
   });
@@ -155,9 +156,9 @@ const SpaceBarriers& Responder::addBarriers(dSpaceID space, const BarrierOptions
   group->options = options;
   group->scenery = options.walls.scenery;
   group->options.walls.scenery = group->scenery;
-  self.spaces.reserve(self.spaces.size() + 1);
   try {
     refresh(*this, self, *group);
+    self.spaces.reserve(self.spaces.size() + 1);
   } catch (...) {
     removeAll(*this, self, group->members);
     throw;

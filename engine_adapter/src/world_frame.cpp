@@ -94,8 +94,9 @@ Scene WorldFrame::scene(const Scene& world) const {
 ImpactEvent WorldFrame::event(const ImpactEvent& world) const {
   ImpactEvent own = world;
   own.normal = direction(world.normal);
-  for (const auto member : {&ImpactEvent::contact, &ImpactEvent::velocityAfter,
-                            &ImpactEvent::otherVelocityBefore, &ImpactEvent::otherVelocityAfter}) {
+  for (const auto member :
+       {&ImpactEvent::contact, &ImpactEvent::velocityBefore, &ImpactEvent::velocityAfter,
+        &ImpactEvent::otherVelocityBefore, &ImpactEvent::otherVelocityAfter}) {
     own.*member = vector(world.*member);
   }
   scale(1.0 / metre_, own);
@@ -105,8 +106,9 @@ ImpactEvent WorldFrame::event(const ImpactEvent& world) const {
 ImpactEvent WorldFrame::eventInWorld(const ImpactEvent& own) const {
   ImpactEvent world = own;
   world.normal = directionInWorld(own.normal);
-  for (const auto member : {&ImpactEvent::contact, &ImpactEvent::velocityAfter,
-                            &ImpactEvent::otherVelocityBefore, &ImpactEvent::otherVelocityAfter}) {
+  for (const auto member :
+       {&ImpactEvent::contact, &ImpactEvent::velocityBefore, &ImpactEvent::velocityAfter,
+        &ImpactEvent::otherVelocityBefore, &ImpactEvent::otherVelocityAfter}) {
     world.*member = vectorInWorld(own.*member);
   }
   scale(metre_, world);

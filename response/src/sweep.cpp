@@ -212,7 +212,7 @@ double Sweep::timeOfTouch(const Segment& wall, const Overlap* touch, double from
     flight.speed += std::abs(spin_) * farthest;
     flight.acceleration = std::abs(spin_) * (2.0 * straight + std::abs(spin_) * farthest);
   }
-  flight.first = from == 0.0 ? Stage{start_, flight.at(0.0).velocity} : flight.at(from);
+  flight.first = from == 0.0 && spin_ == 0.0 ? Stage{start_, motion_.velocity} : flight.at(from);
   const double fastest = flight.speed + flight.turning * outline_.radius();
   const double way = fastest * (until - from) + 2.0 * touchTolerance;
   const PlanRectangle bounds = outline_.enlarged(way + wall.radius);

@@ -1,7 +1,7 @@
 # Installs the build tree into an empty prefix and moves that elsewhere, then builds and runs the
 # consumers against it, by CMake and by pkg-config:
 #   cmake -D BUILD=<build tree> -D GENERATOR=<its generator> -D SOURCE=<tests/consumer> -D WORK=<folder>
-#         -D CXX=<compiler> -D PICTURES=<whether the package has the component pictures>
+#         -D CXX=<compiler> -D CC=<compiler of C> -D PICTURES=<whether the package has the component pictures>
 #         -P run_consumer.cmake
 cmake_minimum_required(VERSION 3.22)
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
@@ -27,6 +27,8 @@ run(${WORK}/build/consumer)
 use_pkg_config(${WORK}/moved)
 compile(${WORK}/by_pkg_config ${CXX} -std=c++20 SOURCE ${SOURCE}/main.cpp MODULES bumper-engine-adapter --static)
 run(${WORK}/by_pkg_config)
+
+include(${SOURCE}/trials/trials.cmake)
 
 # Each module names all that its library needs: the whole of it is linked.
 file(WRITE ${WORK}/nothing.cpp "int main() {}\n")

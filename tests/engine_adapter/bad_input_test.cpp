@@ -102,8 +102,12 @@ TEST(BadInput, Barriers) {
   const dGeomID ray = dCreateRay(nullptr, 1.0);
   expectError([&] { responder.addBarrier(ray); }, "is a ray");
   dGeomDestroy(ray);
+  const dGeomID point = dCreateSphere(nullptr, 0.0);
+  expectError([&] { responder.addBarrier(point); }, "is a sphere without a radius");
+  dGeomDestroy(point);
   const dGeomID field = dCreateHeightfield(nullptr, dGeomHeightfieldDataCreate(), 0);
   expectError([&] { responder.addBarrier(field); }, "is a heightfield");
+  expectError([&] { responder.addBarrier(field); }, "give its faces as a scene");
   dGeomHeightfieldDataDestroy(dGeomHeightfieldGetHeightfieldData(field));
   dGeomDestroy(field);
   const dGeomID ground = dCreatePlane(nullptr, 0.0, 0.0, 1.0, 0.0);

@@ -138,6 +138,14 @@ TEST(CrowdedWalls, OneThatAVehicleWasPutIntoStaysAsItIs) {
   EXPECT_EQ(kept.size(), given.size());
 }
 
+TEST(CrowdedWalls, FarTooManyAreReducedEvenThere) {
+  std::vector<Segment> many;
+  addRing(many, static_cast<int>(CrowdedWalls::mostEntered) + 1, {0.5, 0.2}, 0.06);
+  CrowdedWalls crowds;
+  crowds.reduce(many, besides);
+  EXPECT_LE(many.size(), 16U);
+}
+
 TEST(CrowdedWalls, TheOutsideIsKept) {
   std::vector<Segment> given;
   addRing(given, 3000, {1.0, 2.0}, 0.06);

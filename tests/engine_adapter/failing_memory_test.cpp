@@ -211,6 +211,8 @@ TEST(FailingMemory, UpdatingIsAllOrNothing) {
       [&](Situation& situation) { situation.responder.updateBarrier(situation.rail, moved); });
   expectAllOrNothing([&](Situation& situation) {
     dGeomSetPosition(situation.postGeom.geom, 0.0, 0.4, 1.0);
+    // One that was only moved is not read anew.
+    dGeomBoxSetLengths(situation.postGeom.geom, 0.3, 0.3, 2.0);
     situation.responder.updateBarrier(situation.post);
   });
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <string>
 
 #include "bumper/render/image_compare.h"
@@ -130,6 +131,57 @@ TEST(ImpactCloseUp, shadesTheWallAsFarAsItGoes) {
   // A barrier that is not in the scene has no end.
   const Scene elsewhere = straightWall({0.0, 80.0}, {60.0, 80.0}, 1.0);
   EXPECT_GT(shadeOf(elsewhere, run).max().x(), diagramWidth - 4);
+}
+
+/// The second vehicle's paint as a line.
+bool isOtherOutline(const Rgb& pixel) {
+  return std::abs(pixel.red - 75) < 25 && pixel.green < 70 && pixel.blue > 185;
+}
+
+TEST(ImpactCloseUp, showsBothVehiclesWhereTheyHit) {
+  const Scene none = straightWall({0.0, 80.0}, {60.0, 80.0}, 1.0);
+  const Image image = impactCloseUp(none, testing::sideHit(), 0);
+  const double scale = barLength(image);
+  ASSERT_GT(scale, 50.0);
+  const Eigen::AlignedBox2d outline = extentOf(image, isOutline);
+  const Eigen::AlignedBox2d other = extentOf(image, isOtherOutline);
+  EXPECT_NEAR(outline.sizes().x(), 4.40 * scale, 0.05 * 4.40 * scale);
+  EXPECT_NEAR(other.sizes().y(), 4.40 * scale, 0.05 * 4.40 * scale);
+  EXPECT_NEAR(other.sizes().x(), 1.70 * scale, 0.05 * 4.40 * scale);
+  // The front at the side; the other one goes up and is a little ahead.
+  EXPECT_NEAR(other.min().x(), outline.max().x(), 4.0);
+  EXPECT_NEAR(other.min().y(), outline.center().y() - (0.4 + 2.05) * scale, 6.0);
+  // The impulses go both ways from the contact, as far.
+  const Eigen::AlignedBox2d marks = extentOf(image, isMarkColour);
+  EXPECT_GT(outline.max().x() - marks.min().x(), 60.0);
+  EXPECT_GT(marks.max().x() - outline.max().x(), 60.0);
+}
+
+TEST(ImpactCloseUp, aVehicleThatWasNotRecordedIsOnlyNamed) {
+  const Recording whole = testing::sideHit();
+  Recording half;
+  half.addVehicle("saloon", testing::saloon());
+  half.addPose(0, whole.vehicles()[0].poses[0]);
+  half.addImpact(whole.impacts()[0].event());
+  const Scene none = straightWall({0.0, 80.0}, {60.0, 80.0}, 1.0);
+  const Image image = impactCloseUp(none, half, 0);
+  EXPECT_TRUE(extentOf(image, isOtherOutline).isEmpty());
+  EXPECT_FALSE(extentOf(image, isOutline).isEmpty());
+  // As an older file has it: the other one stands where it was recorded.
+  Recording old = testing::sideHit();
+  ImpactEvent event = whole.impacts()[0].event();
+  event.time = 1.0;
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  event.otherArm.setConstant(unknown);
+  event.velocityBefore.setConstant(unknown);
+  event.otherVelocityBefore.setConstant(unknown);
+  event.otherVelocityAfter.setConstant(unknown);
+  event.otherYawRateBefore = event.otherYawRateAfter = unknown;
+  old.addImpact(event);
+  const Image known = impactCloseUp(none, old, 0);
+  const Image lacking = impactCloseUp(none, old, 1);
+  EXPECT_NEAR(extentOf(lacking, isOtherOutline).min().x(),
+              extentOf(known, isOtherOutline).min().x(), 3.0);
 }
 
 TEST(ImpactCloseUp, rejectsWhatCannotBeDrawn) {

@@ -1,6 +1,7 @@
 #include "synthetic_run.h"
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "bumper/scenes/paper_scenes.h"
@@ -162,6 +163,40 @@ Recording cornerHits() {
     run.addImpact(event);
     time += 1.0;
   }
+  return run;
+}
+
+Recording sideHit() {
+  constexpr double half = 0.5 * std::numbers::pi;
+  constexpr double deltaV = 7.0;     // along the normal, m/s
+  constexpr double friction = -0.3;  // the saloon is dragged along y
+  const Vector2d touch(saloon().massCentreToFront, 0.0);
+  const Vector2d crossing = touch + Vector2d(0.5 * saloon().width, 0.4);
+  Recording run;
+  const std::size_t first = run.addVehicle("saloon", saloon());
+  const std::size_t second = run.addVehicle("crossing", saloon());
+  run.addPose(first, poseOf(1.0, {0.0, 0.0}, 0.0, {15.0, 0.0}, 0.0));
+  run.addPose(second, poseOf(1.0, crossing, half, {0.0, 10.0}, 0.0));
+  ImpactEvent event = eventAt(1.0, touch, {-1.0, 0.0}, deltaV * std::hypot(1.0, friction));
+  event.barrier = event.material = "";
+  event.otherVehicle = "crossing";
+  event.triangle = -1;
+  event.arm = touch;
+  event.otherArm = {touch.y() - crossing.y(), crossing.x() - touch.x()};
+  event.approachSpeed = 15.0;
+  event.impulseNormal = saloon().mass * deltaV;
+  event.impulseTangent = friction * event.impulseNormal;
+  // The normal is −x, the tangent −y.
+  const Vector3d change(-deltaV, -friction * deltaV, 0.0);
+  event.velocityBefore = {15.0, 0.0, 0.0};
+  event.velocityAfter = event.velocityBefore + change;
+  event.otherVelocityBefore = {0.0, 10.0, 0.0};
+  event.otherVelocityAfter = event.otherVelocityBefore - change;
+  event.speedBefore = event.velocityBefore.norm();
+  event.speedAfter = event.velocityAfter.norm();
+  event.yawRateAfter = 1.2;
+  event.otherYawRateAfter = -0.8;
+  run.addImpact(event);
   return run;
 }
 

@@ -20,6 +20,10 @@ Recording courseRun();
 /// side wall; the front's left half meets the end wall, by the corner of the two.
 Recording cornerHits();
 
+/// A made-up hit by plain arithmetic: "saloon" at 15 m/s along x, at the origin, with its front
+/// into the left side of "crossing", which goes at 10 m/s along y.
+Recording sideHit();
+
 /// One vehicle that stands at a place with a heading, rad, and nothing else.
 Recording standingVehicle(const Eigen::Vector2d& place, double heading);
 

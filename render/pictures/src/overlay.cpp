@@ -548,7 +548,8 @@ void addOverlay(const Camera& camera, const RunExcerpt& run, const SnapshotOptio
   }
   overlay.avoidRun();
   if (options.showImpacts) overlay.addImpacts();
-  if (options.showTimes && options.showVehicles && !options.moment) overlay.addTimes();
+  const bool isCrowd = run.names.size() > paintCount;
+  if (options.showTimes && options.showVehicles && !options.moment && !isCrowd) overlay.addTimes();
 }
 
 }  // namespace bumper::drawing

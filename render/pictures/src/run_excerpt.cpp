@@ -7,6 +7,7 @@
 
 #include "bumper/response/error.h"
 #include "text.h"
+#include "vehicle_shape.h"
 
 namespace bumper::drawing {
 
@@ -21,8 +22,10 @@ constexpr double evenSpacing =
     2.2;  ///< vehicle lengths between ghosts without a reason of their own
 constexpr double maxEvenGhosts = 8.0;
 
+/// The longer way across the outline: a gate is wide.
 double length(const RecordedVehicle& vehicle) {
-  return vehicle.parameters.massCentreToFront + vehicle.parameters.massCentreToRear;
+  const VehicleParameters& size = vehicle.parameters;
+  return std::max(size.massCentreToFront + size.massCentreToRear, size.width);
 }
 
 /// How far the vehicle that moves most is between two instants, in vehicle lengths.
@@ -136,6 +139,8 @@ Span timeOfInterest(const Recording& recording) {
 /// impacts, the harder first, and what fills the gaps.
 std::vector<double> chosenInstants(const Recording& recording, const Span& span) {
   std::vector<double> instants = {span.end};
+  // Ghosts of a crowd hide each other, and whose they are.
+  if (recording.vehicles().size() > paintCount) return instants;
   const auto add = [&](double time, double apart) {
     const bool free = std::ranges::none_of(
         instants, [&](double other) { return separation(recording, time, other) < apart; });

@@ -168,8 +168,8 @@ void WorldPainter::addVehicles(const Recording& recording, const RunExcerpt& run
   std::vector<std::optional<Range>> bodies(recording.vehicles().size());
   for (const DrawnPose& drawn : run.poses) {
     const RecordedVehicle& vehicle = recording.vehicles()[drawn.vehicle];
-    const double length =
-        vehicle.parameters.massCentreToFront + vehicle.parameters.massCentreToRear;
+    const VehicleParameters& size = vehicle.parameters;
+    const double length = std::max(size.massCentreToFront + size.massCentreToRear, size.width);
     const float paleness = drawn.last ? 0.0F : ghostPaleness;
     const float opacity = drawn.last ? 1.0F : ghostOpacity;
     if (!camera_.pixel(drawn.pose.position)) continue;

@@ -134,8 +134,8 @@ std::string motionOf(const ImpactEvent& event) {
          drawing::fixed(event.yawRateAfter * degrees, 0) + "°/s";
 }
 
-/// One line for each vehicle that takes part and is known.
-std::vector<std::string> headingOf(const NumberedImpact& impact) {
+/// One line, or of two vehicles one more for each that is known; named if there are several.
+std::vector<std::string> headingOf(const NumberedImpact& impact, const Recording& recording) {
   const ImpactEvent& event = impact.event;
   const auto deltaV = [](const ImpactEvent& e) {
     return "Δv " + drawing::fixed(e.deltaV, 1) + " m/s, ";
@@ -146,7 +146,9 @@ std::vector<std::string> headingOf(const NumberedImpact& impact) {
   const std::string_view wall = event.material.empty() ? event.barrier : event.material;
   const auto other = asSeenBy(event.otherVehicle, event);
   if (!other) {
-    const std::string line = start + deltaV(event) + closing + ", " + motionOf(event);
+    const bool several = recording.vehicles().size() > 1;
+    const std::string name = several ? std::string(event.vehicle) + ", " : "";
+    const std::string line = start + name + deltaV(event) + closing + ", " + motionOf(event);
     return {wall.empty() ? line : line + ", " + std::string(wall)};
   }
   std::vector<std::string> lines{start + std::string(event.vehicle) + " and " +
@@ -292,9 +294,9 @@ Image contactSheet(const Scene& scene, const Recording& recording,
   const std::vector<Row> rows = rowsOf(recording, options.impacts);
   const int width = static_cast<int>(options.instants.size()) * (options.pictureWidth + gap) + gap;
   const int overview = std::max(width * 2 / 5, options.pictureHeight);
-  const auto headings = [](const Row& row) {
+  const auto headings = [&](const Row& row) {
     std::size_t lines = 0;
-    for (const NumberedImpact& impact : row) lines += headingOf(impact).size();
+    for (const NumberedImpact& impact : row) lines += headingOf(impact, recording).size();
     return static_cast<int>(lines) * captionHeight;
   };
   int height = gap + overview + gap;
@@ -313,7 +315,7 @@ Image contactSheet(const Scene& scene, const Recording& recording,
   int top = gap + overview + gap;
   for (const Row& row : rows) {
     for (const NumberedImpact& impact : row) {
-      for (const std::string& line : headingOf(impact)) {
+      for (const std::string& line : headingOf(impact, recording)) {
         write(sheet, line, gap, top + baselineBelow, ink);
         top += captionHeight;
       }

@@ -28,7 +28,7 @@ CArguments::CArguments() {
   must(bumper_remove_barrier(world_.responder, removedBarrier));
 
   constexpr std::uint64_t allBits = std::numeric_limits<std::uint64_t>::max();
-  staleResponders_ = {{0}, {1}, {65535}, {65536}, {allBits}, gone, {gone.value + (1U << 30U)}};
+  staleResponders_ = {{0}, {1}, {65535}, {65537}, {allBits}, gone, {gone.value + (1U << 30U)}};
   staleVehicles_ = {{0}, {1}, {allBits}, removed, ofGone, {world_.vehicle.value + 1000}};
   staleBarriers_ = {
       {0}, {1}, {allBits}, removedBarrier, barrierOfGone, {world_.barrier.value + 1000}};

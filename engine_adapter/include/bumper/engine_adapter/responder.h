@@ -141,8 +141,9 @@ class Responder {
   /// Call after geoms came into such a space, left it, were destroyed or moved: new ones are added,
   /// those that are gone removed, and those that stand differently moved, and those that are
   /// sized differently read anew; others cost nothing. Until then the walls stay as they were. What
-  /// changes in a trimesh without its bounding box is for updateBarrier(). Throws Error as
-  /// addBarriers() does, and if the space was not added.
+  /// changes in a trimesh without its bounding box is for updateBarrier(). If memory runs out
+  /// halfway the next call does the rest. Throws Error as addBarriers() does, and if the space was
+  /// not added.
   const SpaceBarriers& updateBarriers(dSpaceID space);
   /// Removes those barriers. The space may be gone. Throws Error if it was not added.
   void removeBarriers(dSpaceID space);

@@ -72,7 +72,8 @@ struct SnapshotOptions {
   /// s: when vehicles are drawn, all but the last as ghosts. The run is drawn from the first to the
   /// last of them. Empty: the whole run, with the end and the hardest impact, and as far as there
   /// is room the start, the other impacts, and instants at even distances between them, a vehicle
-  /// that stays only once; in a three-quarter view the start and the end of what it frames.
+  /// that stays only once, and with more than eight vehicles the end alone; in a three-quarter view
+  /// the start and the end of what it frames.
   std::vector<double> instants;
   /// s: a frame of a replay. Vehicles stand where they are then, solid; impacts and the path are
   /// shown up to then, and ghosts at those of `instants` that lie before it, none if there are

@@ -1,7 +1,7 @@
 #pragma once
 
-// What shared libraries let others see. By GCC everything is hidden that does not stand in a namespace
-// opened with one of these:
+// What shared libraries let others see. By GCC everything is hidden that does not stand in a
+// namespace opened with one of these:
 //
 //   namespace BUMPER_API bumper {
 //
