@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 
 #include "bumper/response/collision_step.h"
 #include "bumper/response/force_pulse.h"
@@ -13,8 +14,8 @@ namespace bumper::examples {
 /// either of the paper's two ways, and nothing else is needed.
 class OwnCar {
  public:
-  OwnCar(const VehicleParameters& parameters, const PlanarMotion& start)
-      : parameters_(parameters), motion_(start) {}
+  OwnCar(const VehicleParameters& parameters, PlanarMotion start)
+      : parameters_(parameters), motion_(std::move(start)) {}
 
   /// Tyres, motor, wind: acts in the next step. N, N m, in the world.
   void push(const PlanarForce& force) { own_ = force; }

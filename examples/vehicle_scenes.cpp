@@ -264,8 +264,8 @@ VehicleRun runVehicleScene(const VehicleScene& scene) {
   {
     Scenery scenery(world, scene);
     scenery.recordPoses();
-    const long steps = std::lround(scene.duration / stepSize);
-    for (long i = 1; i <= steps; ++i) {
+    const long last = std::lround(scene.duration / stepSize);
+    for (long i = 1; i <= last; ++i) {
       scenery.step(world);
       if (i % 2 == 0) scenery.recordPoses();
     }

@@ -28,11 +28,11 @@ static int checked(int answer) {
 static void near_callback(void* data, dGeomID a, dGeomID b) {
   const simulation* self = (const simulation*)data;
   dContact contacts[16];
-  int count, i;
+  int count = 0;
   if (checked(bumper_claims(self->responder, a, b))) return;
   count = dCollide(a, b, 16, &contacts[0].geom, sizeof contacts[0]);
   count = checked(bumper_keep_unclaimed(self->responder, a, b, contacts, count));
-  for (i = 0; i < count; ++i) {
+  for (int i = 0; i < count; ++i) {
     contacts[i].surface.mode = dContactApprox1;
     contacts[i].surface.mu = 0.3;
     dJointAttach(dJointCreateContact(self->world, self->contact_joints, &contacts[i]),
@@ -100,7 +100,6 @@ int main(void) {
   simulation self;
   bumper_vehicle car;
   bumper_motion motion;
-  int step, i;
   dInitODE2(0);
   self.world = dWorldCreate();
   dWorldSetGravity(self.world, 0, 0, -9.81);
@@ -111,18 +110,17 @@ int main(void) {
   checked(bumper_create_responder(self.world, NULL, &self.responder));
   add_wall(&self);
   car = add_car(&self);
-  for (i = 0; i < checked(bumper_warning_count(self.responder)); ++i) {
+  for (int i = 0; i < checked(bumper_warning_count(self.responder)); ++i) {
     const char* text = NULL;
     checked(bumper_get_warning(self.responder, (size_t)i, &text));
     printf("warning: %s\n", text);
   }
 
-  for (step = 0; step < 600; ++step) {
-    int events;
+  for (int step = 0; step < 600; ++step) {
     dSpaceCollide(self.space, &self, near_callback);
     /* your own forces first, then: */
-    events = checked(bumper_step(self.responder, step_size));
-    for (i = 0; i < events; ++i) {
+    const int events = checked(bumper_step(self.responder, step_size));
+    for (int i = 0; i < events; ++i) {
       bumper_event event;
       checked(bumper_init_event(&event, sizeof event));
       checked(bumper_get_event(self.responder, (size_t)i, &event));

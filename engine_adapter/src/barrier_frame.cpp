@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <utility>
 
 #include "ode_vectors.h"
 
@@ -16,8 +17,8 @@ bool isPlaceable(dGeomID geom) { return dGeomGetClass(geom) != dPlaneClass; }
 
 }  // namespace
 
-BarrierFrame::BarrierFrame(dGeomID geom, const WorldFrame& world)
-    : world_(world), body_(dGeomGetBody(geom)), moves_(body_ != nullptr) {
+BarrierFrame::BarrierFrame(dGeomID geom, WorldFrame world)
+    : world_(std::move(world)), body_(dGeomGetBody(geom)), moves_(body_ != nullptr) {
   if (!isPlaceable(geom)) return;
   place(geom);
   place_ = now_.position;

@@ -16,7 +16,7 @@ namespace bumper {
 class BarrierFrame {
  public:
   /// The walls are read now, of a geom that may have a body.
-  BarrierFrame(dGeomID geom, const WorldFrame& world);
+  BarrierFrame(dGeomID geom, WorldFrame world);
 
   /// Whether they may ever be elsewhere than where they were read.
   [[nodiscard]] bool moves() const { return moves_; }

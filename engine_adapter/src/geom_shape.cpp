@@ -28,9 +28,11 @@ void addTriangles(dGeomID trimesh, CheckSum& sum) {
   const Eigen::Matrix3d axes = toMatrix(dGeomGetRotation(trimesh));
   const int count = dGeomTriMeshGetTriangleCount(trimesh);
   for (int i = 0; i < count; ++i) {
-    std::array<dVector3, 3> corners{};
-    dGeomTriMeshGetTriangle(trimesh, i, &corners[0], &corners[1], &corners[2]);
-    for (const dVector3& corner : corners) {
+    dVector3 first;
+    dVector3 second;
+    dVector3 third;
+    dGeomTriMeshGetTriangle(trimesh, i, &first, &second, &third);
+    for (const dReal* corner : {first, second, third}) {
       const Eigen::Vector3d local = axes.transpose() * (toVector(corner) - place);
       for (int k = 0; k < 3; ++k) sum.add(static_cast<double>(static_cast<float>(local[k])) + 0.0);
     }
@@ -58,10 +60,10 @@ std::uint64_t shapeOf(dGeomID geom, const Eigen::Vector3d& up) {
       dGeomBoxGetLengths(geom, numbers.data());
       break;
     case dCylinderClass:
-      dGeomCylinderGetParams(geom, &numbers[0], &numbers[1]);
+      dGeomCylinderGetParams(geom, numbers.data(), &numbers[1]);
       break;
     case dCapsuleClass:
-      dGeomCapsuleGetParams(geom, &numbers[0], &numbers[1]);
+      dGeomCapsuleGetParams(geom, numbers.data(), &numbers[1]);
       break;
     case dPlaneClass:
       dGeomPlaneGetParams(geom, numbers.data());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -72,8 +73,8 @@ bool VehicleState::isFinite() const {
          std::isfinite(yawRate) && acceleration.allFinite() && std::isfinite(yawAcceleration);
 }
 
-VehicleBodies::VehicleBodies(std::vector<dBodyID> bodies, const WorldFrame& frame, const Turn& axes)
-    : bodies_(std::move(bodies)), frame_(frame), axes_(axes) {
+VehicleBodies::VehicleBodies(std::vector<dBodyID> bodies, WorldFrame frame, Turn axes)
+    : bodies_(std::move(bodies)), frame_(std::move(frame)), axes_(std::move(axes)) {
   if (!frame_.isUsual() || !axes_.isNone()) copies_ = std::make_unique<Copy[]>(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     dBodyID body = bodies_[i];
@@ -94,7 +95,8 @@ void VehicleBodies::refresh() const {
     dBodyID body = bodies_[i];
     Copy& own = copies_[i];
     const Eigen::Matrix3d rotation = axesOf(body);
-    for (int row = 0; row < 3; ++row) copy(rotation.row(row), own.rotation + 4 * row);
+    for (int row = 0; row < 3; ++row)
+      copy(rotation.row(row), own.rotation + 4 * static_cast<std::ptrdiff_t>(row));
     copy(positionOf(body), own.position);
     copy(velocityOf(body), own.velocity);
     copy(frame_.direction(toVector(dBodyGetAngularVel(body))), own.turning);
@@ -104,14 +106,14 @@ void VehicleBodies::refresh() const {
 }
 
 Eigen::Matrix3d VehicleBodies::inertiaOf(const dMass& mass) const {
-  const Eigen::Matrix3d inertia = toMatrix(mass.I);
+  Eigen::Matrix3d inertia = toMatrix(mass.I);
   if (!areCopied()) return inertia;
   return axes_.ofRows(axes_.ofColumns(inertia)) / (frame_.metre() * frame_.metre());
 }
 
 Eigen::Quaterniond VehicleBodies::orientationInWorld() const {
   const dReal* q = dBodyGetQuaternion(chassis());
-  const Eigen::Quaterniond orientation(q[0], q[1], q[2], q[3]);
+  Eigen::Quaterniond orientation(q[0], q[1], q[2], q[3]);
   if (axes_.isNone()) return orientation;
   return orientation * Eigen::Quaterniond(axes_.rows()).conjugate();
 }

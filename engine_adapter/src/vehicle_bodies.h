@@ -61,8 +61,7 @@ class VehicleBodies {
  public:
   /// The first body is the chassis; `axes` leads from its own axes to forward, left, up. The others
   /// are seen in axes turned alike.
-  explicit VehicleBodies(std::vector<dBodyID> bodies, const WorldFrame& frame = {},
-                         const Turn& axes = {});
+  explicit VehicleBodies(std::vector<dBodyID> bodies, WorldFrame frame = {}, Turn axes = {});
 
   [[nodiscard]] dBodyID chassis() const { return bodies_.front(); }
   [[nodiscard]] std::span<const dBodyID> all() const { return bodies_; }

@@ -104,8 +104,8 @@ std::optional<Segment> cutFace(const WallFace& face, const VehicleState& state,
   const double distance = face.normal().dot(corners.front() - state.massCentre);
   const double atFoot = (distance - normal.z() * std::max(low, height.low)) / planar;
   const double atTop = (distance - normal.z() * std::min(high, height.high)) / planar;
-  const double farthest = std::max(atFoot, atTop);
-  const double offset = farthest <= 0.0 ? farthest : std::min(atFoot, atTop);
+  const double away = std::max(atFoot, atTop);
+  const double offset = away <= 0.0 ? away : std::min(atFoot, atTop);
   const Vector2 foot = offset * segment.normal;
   segment.start = foot + place.low * tangent;
   segment.end = foot + place.high * tangent;

@@ -51,6 +51,7 @@ std::span<const std::string_view> usualChecks() { return checkNames().first(5); 
 
 std::vector<Check> checksOf(const Subject& subject, const Examination& examination) {
   std::vector<Check> checks;
+  checks.reserve(names.size());
   for (const std::string_view name : names) checks.push_back({.name = name, .reason = {}});
   const auto check = [&](std::string_view name) -> Check& {
     return *std::ranges::find(checks, name, &Check::name);

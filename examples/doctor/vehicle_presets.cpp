@@ -46,9 +46,10 @@ constexpr std::array<VehicleParameters, 5> vehicles{{
 std::span<const std::string_view> vehicleNames() { return names; }
 
 std::optional<VehicleParameters> findVehicle(std::string_view name) {
-  const auto found = std::ranges::find(names, name);
-  if (found == names.end()) return std::nullopt;
-  return vehicles.at(static_cast<std::size_t>(found - names.begin()));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names.at(i) == name) return vehicles.at(i);
+  }
+  return std::nullopt;
 }
 
 VehicleParameters changed(const VehicleParameters& model, const VehicleChanges& changes) {

@@ -48,8 +48,7 @@ std::vector<WallLine> WallSections::around(const DrivingPlane& plane, double rad
       found.insert(found.end(), cell->second.begin(), cell->second.end());
   }
   std::ranges::sort(found);
-  const auto repeated = std::ranges::unique(found);
-  found.erase(repeated.begin(), repeated.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
 
   std::vector<WallLine> lines;
   for (const std::size_t i : found) {

@@ -39,7 +39,7 @@ class HandleTable {
   }
 
   /// Null if the handle names nothing.
-  Thing* find(std::uint64_t handle) const noexcept {
+  [[nodiscard]] Thing* find(std::uint64_t handle) const noexcept {
     const Slot& slot = slots_[handle % capacity];
     if (handle == 0 || slot.handle.load(std::memory_order_acquire) != handle) return nullptr;
     return slot.thing.load(std::memory_order_relaxed);

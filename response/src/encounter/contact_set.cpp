@@ -221,7 +221,7 @@ ContactSet::Forecast ContactSet::forecast(const Manifold& wall, double time) con
 
 // Of the outline's point, as seen from the wall.
 Vector2 ContactSet::relativeVelocity(const Manifold& wall, const ContactPoint& contact) const {
-  const Vector2 velocity = velocityAt(vehicle_.body.motion, contact.arm);
+  Vector2 velocity = velocityAt(vehicle_.body.motion, contact.arm);
   if (!surfaceOf(wall).moves) return velocity;
   const PlanarMotion motion = bodyOf(wall).motion;
   return velocity - velocityAt(motion, contact.point - motion.position);

@@ -176,7 +176,7 @@ class Responder {
   /// null, registered already or of another world, or if the bodies' mass or yaw inertia differs
   /// from the parameters by more than 1 % or 5 %: the impulse would be wrong. From then on the
   /// bodies' own values are used.
-  VehicleId addVehicle(dBodyID chassis, const VehicleParameters& parameters,
+  VehicleId addVehicle(dBodyID chassis, const VehicleParameters& given,
                        const VehicleOptions& options = {});
 
   /// How two vehicles respond to each other from now on, in either order. Vehicles that a joint
