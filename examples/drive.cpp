@@ -274,11 +274,7 @@ int runDrive(int argc, char** argv) {
   CLI::App app("Drives a car through a mesh file and lets it hit what stands in its way.",
                "bumper-drive");
   app.add_option("scene", arguments.scene, "mesh file, any format that assimp reads")->required();
-  app.add_option("--up", arguments.up, "the file's up axis, for formats that state none")
-      ->check(CLI::IsMember({"x", "y", "z"}));
-  app.add_option("--scale", arguments.scale, "metres per unit of the file")
-      ->check(numberIn(1e-9, 1e9))
-      ->capture_default_str();
+  tools::addUpAndScale(app, arguments.up, arguments.scale);
   app.add_option("--scenery", arguments.scenery,
                  "meshes to drive through, by name or material, as trees in pictures: a regular "
                  "expression, e.g. \"OBJ.*|TREE.*\"");

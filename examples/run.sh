@@ -20,7 +20,7 @@ done
 mkdir -p "$root/build"
 install_packages build
 configure_and_build --target test_rail course break_through hinge2_car vehicles two_hosts \
-  wall_in_c bumper-drive bumper-replay bumper-plot bumper-read-scene
+  wall_in_c any_engine threads bumper-drive bumper-replay bumper-plot bumper-read-scene
 cd "$root"
 
 # show FOLDER [OPTION of bumper-plot]...: everything that the tools make of a recording.
@@ -68,6 +68,12 @@ say "Two hosts"
 
 say "A wall, from C"
 "$build/bin/wall_in_c"
+
+say "A car of another engine"
+"$build/bin/any_engine"
+
+say "Two worlds on two threads"
+"$build/bin/threads"
 
 say "A drive on a real track"
 if [ "$download" = 1 ]; then "$root/examples/fetch_tracks.sh" road/aalborg || true; fi

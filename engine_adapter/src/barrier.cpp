@@ -178,10 +178,17 @@ void Barrier::keepGeom(dGeomID geom, const WorldFrame& frame) {
   if (geomClass_ == dTriMeshClass) geomData_ = dGeomTriMeshGetTriMeshDataID(geom);
   frame_.emplace(geom, frame);
   up_ = frame.directionInWorld(Eigen::Vector3d::UnitZ());
-  shape_ = shapeOf(geom, up_);
+  shape_ = shapeOf(geom);
+  lean_ = leanOf(geom, up_);
 }
 
-bool Barrier::hasSameShape() const { return isStill(geom_) && shapeOf(geom_, up_) == shape_; }
+// A body may turn its geoms, and a scene's walls are as given; what the application itself turns is
+// looked at anew.
+bool Barrier::hasSameWalls() const {
+  if (!isStill(geom_) || shapeOf(geom_) != shape_) return false;
+  const bool isCarried = frame_->body() != nullptr || dGeomGetBody(geom_) != nullptr;
+  return hasScene_ || isCarried || leanOf(geom_, up_) == lean_;
+}
 
 bool Barrier::isStill(dGeomID existing) const {
   return existing == geom_ && dGeomGetClass(existing) == geomClass_ &&

@@ -43,21 +43,8 @@ class Barrier {
   /// Where its walls are now. Everything below that has a place is in this frame.
   [[nodiscard]] const BarrierFrame& frame() const { return *frame_; }
   [[nodiscard]] BarrierFrame& frame() { return *frame_; }
-  /// A place or direction of the world in the frame, for what is kept while it moves.
-  [[nodiscard]] Eigen::Vector3d toFrame(const Eigen::Vector3d& place) const {
-    return frame_->moves() ? frame_->toFrame(place) : place;
-  }
-  [[nodiscard]] Eigen::Vector3d directionToFrame(const Eigen::Vector3d& direction) const {
-    return frame_->moves() ? frame_->directionToFrame(direction) : direction;
-  }
-  [[nodiscard]] Eigen::Vector3d toWorld(const Eigen::Vector3d& place) const {
-    return frame_->moves() ? frame_->toWorld(place) : place;
-  }
-  [[nodiscard]] Eigen::Vector3d directionToWorld(const Eigen::Vector3d& direction) const {
-    return frame_->moves() ? frame_->directionToWorld(direction) : direction;
-  }
-  /// The geom has the shape that it had when its walls were read, whatever its place.
-  [[nodiscard]] bool hasSameShape() const;
+  /// The walls that were read are the geom's, whatever its place.
+  [[nodiscard]] bool hasSameWalls() const;
   /// Whether its walls are given by a scene, not the geom.
   [[nodiscard]] bool hasScene() const { return hasScene_; }
   [[nodiscard]] const WallReport& report() const { return report_; }
@@ -117,7 +104,9 @@ class Barrier {
   WallReport report_;
   std::optional<BarrierFrame> frame_;
   Eigen::Vector3d up_ = Eigen::Vector3d::UnitZ();  // in the ODE world's axes
-  std::uint64_t shape_ = 0;                        // of the geom, as a check sum
+  // Of the geom when its walls were read, as check sums.
+  std::uint64_t shape_ = 0;
+  std::uint64_t lean_ = 0;
   std::optional<BarrierMesh> mesh_;
   std::optional<PrimitiveWall> primitive_;
   // Barriers that follow the responder's settings form one wall where they meet: number 0 is then

@@ -43,6 +43,8 @@ void BarrierFrame::restore(const BarrierMotion& motion) {
   turn_ = now_.axes * axes_.transpose();
 }
 
+void BarrierFrame::stop() { now_ = {.position = now_.position, .axes = now_.axes}; }
+
 void BarrierFrame::takeOver(const BarrierFrame& before) {
   if (before.body_ != body_) return;
   moves_ = before.moves_;
@@ -115,22 +117,27 @@ void BarrierFrame::read(double time) {
 }
 
 Eigen::Vector3d BarrierFrame::toFrame(const Eigen::Vector3d& place) const {
+  if (!moves_) return place;
   return place_ + turn_.transpose() * (place - now_.position);
 }
 
 Eigen::Vector3d BarrierFrame::toWorld(const Eigen::Vector3d& place) const {
+  if (!moves_) return place;
   return now_.position + turn_ * (place - place_);
 }
 
 Eigen::Vector3d BarrierFrame::directionToFrame(const Eigen::Vector3d& direction) const {
+  if (!moves_) return direction;
   return turn_.transpose() * direction;
 }
 
 Eigen::Vector3d BarrierFrame::directionToWorld(const Eigen::Vector3d& direction) const {
+  if (!moves_) return direction;
   return turn_ * direction;
 }
 
 VehiclePose BarrierFrame::toFrame(const VehiclePose& pose) const {
+  if (!moves_) return pose;
   return {.massCentre = toFrame(pose.massCentre), .axes = turn_.transpose() * pose.axes};
 }
 

@@ -24,6 +24,8 @@ class BarrierFrame {
   [[nodiscard]] dBodyID body() const { return body_; }
   [[nodiscard]] const BarrierMotion& motion() const { return now_; }
   void restore(const BarrierMotion& motion);
+  /// It stands still where it is, and never moved before.
+  void stop();
   /// The walls were read anew, of a barrier that moved so far like this.
   void takeOver(const BarrierFrame& before);
 
@@ -35,6 +37,7 @@ class BarrierFrame {
   /// Before a step: from the body. One that was not moved since the last step stands still.
   void read(double time);
 
+  /// Of one that does not move the frame is the world, to the last bit.
   [[nodiscard]] Eigen::Vector3d toFrame(const Eigen::Vector3d& place) const;
   [[nodiscard]] Eigen::Vector3d toWorld(const Eigen::Vector3d& place) const;
   [[nodiscard]] Eigen::Vector3d directionToFrame(const Eigen::Vector3d& direction) const;

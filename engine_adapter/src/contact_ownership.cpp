@@ -78,11 +78,6 @@ std::optional<OwnedVehicles> vehiclesOf(const Responder::Implementation& respond
   return OwnedVehicles{.up = plane.normal(), .areLevel = higher < levelShare * band};
 }
 
-/// A vehicle in the frame of a barrier.
-VehiclePose seenFrom(const Barrier& barrier, const VehiclePose& pose) {
-  return barrier.frame().moves() ? barrier.frame().toFrame(pose) : pose;
-}
-
 /// The pair, if Bumper may own contacts of it.
 OwnedPair pairOf(const Responder::Implementation& responder, dGeomID a, dGeomID b) {
   if (const OwnedPair pair = ordered(responder, a, b)) return pair;
@@ -138,7 +133,7 @@ class ContactPairs {
     dGeomID const second = carrierOf(second_, swapped ? a_ : b_);
     pair_ = bumper::pairOf(responder_, first, second);
     vehicles_ = vehiclesOf(responder_, first, second);
-    if (pair_) pose_ = seenFrom(*pair_.barrier, pair_.vehicle->bodies.readPose());
+    if (pair_) pose_ = pair_.barrier->frame().toFrame(pair_.vehicle->bodies.readPose());
     return pair_;
   }
   /// Of the last contact.
@@ -198,9 +193,9 @@ bool isWithFoot(const OwnedPair& pair, const VehiclePose& pose, const Contact& c
 
 bool isOurs(const OwnedPair& pair, const VehiclePose& pose, const WorldFrame& frame,
             const dContactGeom& geom) {
-  const Barrier& barrier = *pair.barrier;
-  const Contact contact{.place = barrier.toFrame(frame.vector(toVector(geom.pos))),
-                        .normal = barrier.directionToFrame(frame.direction(toVector(geom.normal))),
+  const BarrierFrame& walls = pair.barrier->frame();
+  const Contact contact{.place = walls.toFrame(frame.vector(toVector(geom.pos))),
+                        .normal = walls.directionToFrame(frame.direction(toVector(geom.normal))),
                         .triangle = pair.barrierFirst ? geom.side1 : geom.side2};
   // ODE gives no triangle index where two trimeshes meet along their edges.
   if (contact.triangle < 0 && dGeomGetClass(pair.barrier->geom()) == dTriMeshClass) {
@@ -216,7 +211,7 @@ bool Responder::claims(dGeomID a, dGeomID b) const {
   const OwnedPair pair = pairOf(*implementation_, a, b);
   // A mesh that holds ground too is decided contact by contact.
   if (!pair || !pair.barrier->hasWallsOnly()) return false;
-  const VehiclePose pose = seenFrom(*pair.barrier, pair.vehicle->bodies.readPose());
+  const VehiclePose pose = pair.barrier->frame().toFrame(pair.vehicle->bodies.readPose());
   return pair.vehicle->envelope.allInBand(pose, pair.barrier->highestFoot(),
                                           pair.barrier->lowestTop());
 }

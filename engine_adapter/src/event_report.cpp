@@ -77,7 +77,7 @@ ImpactEvent Responder::Implementation::eventWith(const Vehicle& vehicle, const C
   } else {
     const Barrier& barrier = *find(barriers, with.barrier.value);
     event.barrier = barrier.name();
-    event.triangle = barrier.triangleOf(barrier.wallAt(wall, barrier.toFrame(contact)));
+    event.triangle = barrier.triangleOf(barrier.wallAt(wall, barrier.frame().toFrame(contact)));
     event.material = barrier.materialOf(wall);
   }
   event.contact = contact;

@@ -39,15 +39,9 @@ void addTriangles(dGeomID trimesh, CheckSum& sum) {
   }
 }
 
-// To a thousandth of a radian.
-void addLean(dGeomID geom, const Eigen::Vector3d& up, CheckSum& sum) {
-  const Eigen::Vector3d own = toMatrix(dGeomGetRotation(geom)).transpose() * up;
-  for (int k = 0; k < 3; ++k) sum.add(std::round(1000.0 * own[k]) + 0.0);
-}
-
 }  // namespace
 
-std::uint64_t shapeOf(dGeomID geom, const Eigen::Vector3d& up) {
+std::uint64_t shapeOf(dGeomID geom) {
   CheckSum sum;
   const int kind = dGeomGetClass(geom);
   sum.add(static_cast<std::uint64_t>(kind));
@@ -75,8 +69,14 @@ std::uint64_t shapeOf(dGeomID geom, const Eigen::Vector3d& up) {
       break;
   }
   for (const dReal number : numbers) sum.add(number);
-  // A body may turn its geoms; what the application places anew is looked at anew.
-  if (kind != dPlaneClass && dGeomGetBody(geom) == nullptr) addLean(geom, up, sum);
+  return sum.value();
+}
+
+std::uint64_t leanOf(dGeomID geom, const Eigen::Vector3d& up) {
+  CheckSum sum;
+  if (dGeomGetClass(geom) == dPlaneClass) return sum.value();
+  const Eigen::Vector3d own = toMatrix(dGeomGetRotation(geom)).transpose() * up;
+  for (int k = 0; k < 3; ++k) sum.add(std::round(1000.0 * own[k]) + 0.0);
   return sum.value();
 }
 

@@ -7,8 +7,11 @@
 
 namespace bumper {
 
-/// A check sum of a geom's class, size, and, where that decides what is a wall, of how it leans; of
-/// a trimesh of all its triangles. Equal for a geom that was only moved.
-std::uint64_t shapeOf(dGeomID geom, const Eigen::Vector3d& up);
+/// A check sum of a geom's class and size, of a trimesh of all its triangles: equal for a geom that
+/// was only moved.
+std::uint64_t shapeOf(dGeomID geom);
+
+/// One of how it leans, to a thousandth of a radian.
+std::uint64_t leanOf(dGeomID geom, const Eigen::Vector3d& up);
 
 }  // namespace bumper

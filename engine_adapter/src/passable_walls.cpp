@@ -12,11 +12,11 @@ void Responder::Implementation::applyPassableWalls(Vehicle& vehicle) const {
   const VehicleState& state = vehicle.reading.state;
   std::erase_if(vehicle.memory.passable, [&](const PassableWall& passable) {
     const NearbyWalls::Owner owner{.barrier = passable.barrier, .settings = passable.settings};
-    const Barrier& barrier = *find(barriers, passable.barrier.value);
-    const Eigen::Vector3d inWorld = barrier.toWorld(passable.place);
+    const BarrierFrame& frame = find(barriers, passable.barrier.value)->frame();
+    const Eigen::Vector3d inWorld = frame.toWorld(passable.place);
     const Vector2 place = (state.axes.transpose() * (inWorld - state.massCentre)).head<2>();
     const Vector2 normal =
-        (state.axes.transpose() * barrier.directionToWorld(passable.normal)).head<2>().normalized();
+        (state.axes.transpose() * frame.directionToWorld(passable.normal)).head<2>().normalized();
     if (passable.until > 0.0) {
       if (!(time < passable.until)) return true;
       // Walls that go on from one another have one contact, whichever barriers they are of.

@@ -195,7 +195,7 @@ void requireNoVehicle(const Responder::Implementation& responder, dGeomID geom, 
 // The barrier's geom was moved, with or without a velocity, and nothing else: whether it was.
 bool follow(Responder::Implementation& responder, Barrier& barrier) {
   requireNoVehicle(responder, barrier.geom(), "updateBarrier");
-  if (!barrier.hasSameShape()) return false;
+  if (!barrier.hasSameWalls()) return false;
   const bool moved = barrier.frame().moves();
   barrier.frame().follow(barrier.geom(), responder.time, responder.lastStep);
   if (barrier.frame().moves() != moved) lookAround(responder);
@@ -286,7 +286,7 @@ void Responder::updateBarrier(BarrierId barrier, const BarrierVelocity& velocity
   if (moved.primitive() != nullptr && !moved.primitive()->isPost()) {
     throw Error("updateBarrier: barrier '" + moved.name() + "' is a plane, and planes do not move");
   }
-  if (!moved.hasSameShape()) {
+  if (!moved.hasSameWalls()) {
     if (moved.hasScene()) {
       throw Error("updateBarrier: the geom of barrier '" + moved.name() + "' has another shape");
     }
@@ -574,6 +574,8 @@ void Responder::restore(const SavedState& state) {
   if (self.clock) self.clock->stop();
   dJointGroupEmpty(self.guardJoints.get());
   self.hasGuards = false;
+  // One that has begun to move since stands still where it is until it is moved again.
+  for (Barrier* barrier : self.movingBarriers) barrier->frame().stop();
   for (const BarrierMotion& motion : state.barriers) {
     find(self.barriers, motion.barrier.value)->frame().restore(motion);
   }

@@ -64,11 +64,12 @@ std::span<const ImpactEvent> Responder::step(double h) {
   const bool hasPairs = self.hasPairs();
   self.activeCount = 0;
   if (self.anyCopied) self.refreshCopies();
-  self.readMovingBarriers();
+  const bool anyMoving = !self.movingBarriers.empty();
+  if (anyMoving) self.readMovingBarriers();
   for (const std::unique_ptr<Vehicle>& vehicle : self.vehicles) {
     vehicle->isFar = vehicle->mover != Mover::world || vehicle->freeSpace.holds(h);
     vehicle->isAlone = !hasPairs || Traffic::isApart(vehicle->traveller, self.time, h);
-    const bool mayBeHit = self.mayMeetMovingBarrier(*vehicle, h);
+    const bool mayBeHit = anyMoving && self.mayMeetMovingBarrier(*vehicle, h);
     vehicle->isActive = !vehicle->isFar || !vehicle->isAlone || mayBeHit;
     if (vehicle->isActive) self.active[self.activeCount++] = vehicle.get();
   }
@@ -179,7 +180,7 @@ void Responder::Implementation::readMovingBarriers() {
 
 bool Responder::Implementation::mayMeetMovingBarrier(Vehicle& vehicle, double h) const {
   vehicle.barrierSpeed = -1.0;
-  if (movingBarriers.empty() || vehicle.mover != Mover::world) return false;
+  if (vehicle.mover != Mover::world) return false;
   const BodyNumbers& chassis = vehicle.bodies.numbers().front();
   const Eigen::Vector3d place = toVector(chassis.position);
   const double radius = vehicle.traveller.radius + vehicle.envelope.radius();
@@ -259,8 +260,8 @@ void Responder::Implementation::applyOutcome(Vehicle& vehicle, const StepOutcome
     PassableWall passable{
         .barrier = barrier.id(),
         .settings = number,
-        .place = barrier.toFrame(state.massCentre + state.toWorld(each.impact.point)),
-        .normal = barrier.directionToFrame(state.toWorld(each.impact.normal))};
+        .place = barrier.frame().toFrame(state.massCentre + state.toWorld(each.impact.point)),
+        .normal = barrier.frame().directionToFrame(state.toWorld(each.impact.normal))};
     // What presses steadily is answered in each step, or it would sink in while pulses run.
     const bool presses =
         each.response.approachSpeed < impactInContact * barrier.settings(number).restSpeed;
@@ -356,6 +357,7 @@ void Responder::Implementation::forgetSurroundings() {
   for (const std::unique_ptr<Vehicle>& vehicle : vehicles) {
     vehicle->freeSpace.forget();
     vehicle->nearby.forget();
+    vehicle->barrierSpeed = -1.0;
     vehicle->traveller.forget();
   }
 }

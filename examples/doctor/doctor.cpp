@@ -108,11 +108,7 @@ int examineFile(const Arguments& arguments) {
 
 void addOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("file", arguments.file, "mesh file, any format that assimp reads")->required();
-  app.add_option("--up", arguments.up, "the file's up axis, for formats that state none")
-      ->check(CLI::IsMember({"x", "y", "z"}));
-  app.add_option("--scale", arguments.scale, "metres per unit of the file")
-      ->check(numberIn(1e-9, 1e9))
-      ->capture_default_str();
+  tools::addUpAndScale(app, arguments.up, arguments.scale);
   app.add_option("--scenery", arguments.scenery,
                  "meshes that no vehicle hits, by name or material: a regular expression");
   app.add_option("--vehicle", arguments.vehicle, "what the following is not said of")

@@ -4,6 +4,7 @@
 
 #include "bumper/base/printing.h"
 #include "bumper/response/error.h"
+#include "tool.h"
 
 namespace bumper::tools {
 
@@ -15,6 +16,14 @@ std::string withOption(const std::string& message, const std::string& upOption) 
 }
 
 }  // namespace
+
+void addUpAndScale(CLI::App& app, std::string& up, double& scale) {
+  app.add_option("--up", up, "the file's up axis, for formats that state none")
+      ->check(CLI::IsMember({"x", "y", "z"}));
+  app.add_option("--scale", scale, "metres per unit of the file")
+      ->check(numberIn(1e-9, 1e9))
+      ->capture_default_str();
+}
 
 std::optional<UpAxis> upAxis(const std::string& name) {
   if (name == "x") return UpAxis::x;

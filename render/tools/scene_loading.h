@@ -1,5 +1,6 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -7,6 +8,9 @@
 #include "bumper/scenes/scene_files.h"
 
 namespace bumper::tools {
+
+/// The options --up and --scale, of how a scene file is to be read.
+void addUpAndScale(CLI::App& app, std::string& up, double& scale);
 
 /// The axis that "x", "y" or "z" names; empty for anything else.
 std::optional<UpAxis> upAxis(const std::string& name);

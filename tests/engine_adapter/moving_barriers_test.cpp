@@ -321,6 +321,42 @@ TEST(MovingBarriers, OfASceneMoveWithTheirOwnGeom) {
   EXPECT_NEAR(speed, 10.0, 1e-9);
 }
 
+TEST(MovingBarriers, OfASceneMoveWithABodyThatTheirGeomGets) {
+  OdeWorld ode;
+  BoxCar car(ode.world, ode.space);
+  car.place({0.0, 0.0, height}, Eigen::Matrix3d::Identity());
+  Responder responder(ode.world);
+  const BarrierId barrier =
+      responder.addBarrier(straightWall({6.0, -4.0}, {6.0, 4.0}, 2.0), {.space = ode.space});
+  responder.addVehicle(car.body, car.parameters);
+  const dGeomID geom = responder.geom(barrier);
+  const Vector3d stands = Eigen::Map<const Vector3d>(dGeomGetPosition(geom));
+  dBodyID body = dBodyCreate(ode.world);
+  dBodySetKinematic(body);
+  dBodySetPosition(body, 7.0, 1.0, 0.0);
+  dBodySetLinearVel(body, -10.0, 0.0, 0.0);
+  dGeomSetBody(geom, body);
+  dGeomSetOffsetWorldPosition(geom, stands.x(), stands.y(), stands.z());
+  responder.updateBarrier(barrier);
+  double when = 0.0;
+  double speed = 0.0;
+  for (int i = 0; i < 100 && when == 0.0; ++i) {
+    ode.step(0.005, &responder, [&] {
+      for (const ImpactEvent& event : responder.step(0.005)) {
+        when = event.time;
+        speed = event.approachSpeed;
+      }
+    });
+  }
+  EXPECT_NEAR(when, 0.39, 1e-9);
+  EXPECT_NEAR(speed, 10.0, 1e-9);
+  // Without it, it stands still where it is.
+  dGeomSetBody(geom, nullptr);
+  dBodyDestroy(body);
+  responder.updateBarrier(barrier);
+  EXPECT_NO_THROW(responder.step(0.005));
+}
+
 TEST(MovingBarriers, AreSavedAndRestored) {
   OdeWorld ode;
   BoxCar car(ode.world, ode.space);

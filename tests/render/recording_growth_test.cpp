@@ -1,38 +1,17 @@
 // A recording's size, and the work of writing and of reading it, grow as the number of poses, up to
-// a million. Work is counted as the bytes that are allocated. A program of its own, because it
-// replaces operator new.
+// a million. Work is counted as the bytes that are allocated. A program of its own, because
+// operator new is replaced in it.
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <new>
 
+#include "allocated_bytes.h"
 #include "bumper/render/recording.h"
 #include "bumper/render/recording_reader.h"
 #include "bumper/render/recording_writer.h"
 #include "synthetic_run.h"
 #include "temporary_folder.h"
-
-namespace {
-
-std::size_t allocated = 0;  // bytes
-
-void* allocate(std::size_t size) {
-  allocated += size;
-  void* memory = std::malloc(size);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return allocate(size); }
-void* operator new[](std::size_t size) { return allocate(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
 
 namespace bumper {
 namespace {
@@ -45,7 +24,7 @@ TEST(RecordingGrowth, IsInProportionToTheNumberOfPoses) {
   constexpr double mostRead = 1e4;      // likewise
   constexpr double around = 1e6;        // bytes, whatever the number
   for (const int poses : {1'000, 10'000, 100'000, 1'000'000}) {
-    std::size_t before = allocated;
+    std::size_t before = tests::allocatedBytes();
     {
       RecordingWriter writer(file);
       const std::size_t car = writer.addVehicle("car", testing::saloon());
@@ -56,18 +35,20 @@ TEST(RecordingGrowth, IsInProportionToTheNumberOfPoses) {
         writer.addPose(car, pose);
       }
     }
-    EXPECT_LE(static_cast<double>(allocated - before), around + mostWritten * poses) << poses;
+    EXPECT_LE(static_cast<double>(tests::allocatedBytes() - before), around + mostWritten * poses)
+        << poses;
     EXPECT_LE(static_cast<double>(std::filesystem::file_size(file)), around + mostInFile * poses);
 
-    before = allocated;
+    before = tests::allocatedBytes();
     const Recording recording = readRecording(file);
     EXPECT_EQ(recording.vehicles()[0].poses.size(), static_cast<std::size_t>(poses));
-    EXPECT_LE(static_cast<double>(allocated - before), around + mostRead * poses) << poses;
+    EXPECT_LE(static_cast<double>(tests::allocatedBytes() - before), around + mostRead * poses)
+        << poses;
 
     // An instant costs no more than what lies between two places of the index.
-    before = allocated;
+    before = tests::allocatedBytes();
     RecordingReader(file).read({.from = 0.004 * poses, .to = 0.004 * poses});
-    EXPECT_LE(static_cast<double>(allocated - before), 2e7 + 100.0 * poses) << poses;
+    EXPECT_LE(static_cast<double>(tests::allocatedBytes() - before), 2e7 + 100.0 * poses) << poses;
   }
 }
 

@@ -5,13 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <memory>
-#include <new>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "allocated_bytes.h"
 #include "assimp_converter.h"
 #include "bumper/scenes/wall_feet.h"
 #include "bumper/scenes/wall_parts.h"
@@ -21,35 +20,15 @@
 #include "importer_scene.h"
 #include "scene_building.h"
 
-namespace {
-
-std::size_t allocated = 0;  // bytes
-
-void* allocate(std::size_t size) {
-  allocated += size;
-  void* memory = std::malloc(size);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) { return allocate(size); }
-void* operator new[](std::size_t size) { return allocate(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
-
 namespace bumper {
 namespace {
 
 /// The bytes that a call allocates.
 template <typename Call>
 double bytesOf(const Call& call) {
-  const std::size_t before = allocated;
+  const std::size_t before = tests::allocatedBytes();
   call();
-  return static_cast<double>(allocated - before);
+  return static_cast<double>(tests::allocatedBytes() - before);
 }
 
 /// `work` of n things, for n up to a million, is at most `most` for each.

@@ -98,7 +98,7 @@ struct VehicleMemory {
 
 /// How a barrier that moves stood before the last step, and moved.
 struct BarrierMotion {
-  BarrierId barrier;
+  BarrierId barrier{};
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of its body or else its geom, m
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< of that place, m/s
