@@ -58,8 +58,10 @@ TEST(VehicleScenesThemselves, StandForWhatTheyAreNamedAfter) {
   const std::vector<examples::VehicleScene> scenes = examples::vehicleScenes();
   dInitODE2(0);
   // The car on the street hits the other one's side.
-  ImpactEvent first = examples::runVehicleScene(scenes[0]).recording.impacts()[0].event();
-  first = asSeenBy("street", first).value();
+  // An event's names lie in its recording.
+  const examples::VehicleRun crossing = examples::runVehicleScene(scenes[0]);
+  const ImpactEvent first =
+      asSeenBy("street", crossing.recording.impacts().front().event()).value();
   EXPECT_GT(first.arm.x(), 1.5);
   EXPECT_GT(first.otherArm.y(), 0.5);
   // Each of the queue is pushed in its turn.
