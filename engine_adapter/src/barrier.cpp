@@ -17,7 +17,7 @@ namespace bumper {
 namespace {
 
 // A contact whose normal is steeper than this is one with a top.
-constexpr double steepNormal = 0.7;
+constexpr double capNormal = 0.7;
 
 // Upright enough for a post?
 bool isUpright(dGeomID capsule, const WorldFrame& frame, double maxNormalUp) {
@@ -272,7 +272,7 @@ double Barrier::longestPenetrationTime() const {
 
 WallPart Barrier::partAt(int triangle, const Eigen::Vector3d& normal) const {
   if (mesh_ && geomClass_ == dTriMeshClass) return mesh_->partOf(triangle);
-  return {.kind = std::abs(normal.z()) > steepNormal ? WallPart::Kind::cap : WallPart::Kind::face,
+  return {.kind = std::abs(normal.z()) > capNormal ? WallPart::Kind::cap : WallPart::Kind::face,
           .foot = report_.lowestFoot,
           .top = report_.highestTop};
 }

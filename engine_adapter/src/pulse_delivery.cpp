@@ -13,7 +13,7 @@ namespace {
 constexpr double sameSize = 1e-9;
 
 // Maximum acceleration by unknown forces over several steps, m/s².
-constexpr double ordinaryAcceleration = 20.0;
+constexpr double undisturbedAcceleration = 20.0;
 
 bool isClose(double a, double b) { return std::abs(a - b) <= sameSize * std::abs(b); }
 
@@ -41,7 +41,7 @@ LastStep lookBack(const LastDelivery& delivery, const VehicleBodies& bodies,
     if (!wasOne) {
       const double change = (velocity - delivery.velocity).norm() +
                             delivery.impulse.linear.norm() / bodies.read().mass;
-      tolerance += steps.total * (change + ordinaryAcceleration * steps.total);
+      tolerance += steps.total * (change + undisturbedAcceleration * steps.total);
     }
     if ((way - steps.total * velocity).norm() > tolerance) return LastStep::moved_since;
   }

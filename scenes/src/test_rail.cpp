@@ -9,7 +9,7 @@ namespace bumper {
 namespace {
 
 constexpr double wallLength = 60.0;
-constexpr double wallHeight = 0.9;
+constexpr double railHeight = 0.9;
 constexpr double wallThickness = 0.3;
 constexpr std::size_t wallPanels = 17;
 
@@ -40,8 +40,8 @@ void addSlab(Scene& scene, std::uint32_t mesh, const Eigen::Vector2d& start, con
     const Eigen::Vector2d front = start + way * wayAlong(line);
     const Eigen::Vector2d back = front + behind;
     sheet.points.insert(sheet.points.end(), {{front.x(), front.y(), 0.0},
-                                             {front.x(), front.y(), wallHeight},
-                                             {back.x(), back.y(), wallHeight},
+                                             {front.x(), front.y(), railHeight},
+                                             {back.x(), back.y(), railHeight},
                                              {back.x(), back.y(), 0.0}});
   }
   const std::uint32_t begin = addSheet(scene, sheet);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "free_drive.h"
+#include "sanitized.h"
 
 namespace bumper::tests {
 namespace {
@@ -187,7 +188,7 @@ TEST(SpawnedInside, Leaves) {
       SCOPED_TRACE(testing::Message() << thrust << " N, run " << run);
       std::vector<std::vector<Vector2d>> cuts;
       FreeDrive drive;
-      drive.responder.addBarrier(leaves(random, 2000, {2.0, 1.5}, cuts));
+      drive.responder.addBarrier(leaves(random, sanitized ? 500 : 2000, {2.0, 1.5}, cuts));
       drive.start({0.3 * run, 0.4}, 0.5 * run, 0.0);
       expectOut(drive, cuts, thrust);
     }
